@@ -1,0 +1,34 @@
+// The host's allocator as a std::pmr::memory_resource: everything radvor itself keeps in memory comes from here.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+
+namespace radvor {
+
+class HostMemory final : public std::pmr::memory_resource {
+ public:
+  using Acquire = void* (*)(void* user, std::size_t bytes, std::size_t alignment);
+  using Release = void (*)(void* user, void* memory, std::size_t bytes, std::size_t alignment);
+
+  /// NULL callbacks: the C++ runtime's aligned new and delete.
+  HostMemory(Acquire acquire, Release release, void* user) noexcept;
+
+  std::uint64_t live_bytes() const noexcept { return live_.load(std::memory_order_relaxed); }
+  std::uint64_t peak_bytes() const noexcept { return peak_.load(std::memory_order_relaxed); }
+
+ private:
+  void* do_allocate(std::size_t bytes, std::size_t alignment) override;  // throws std::bad_alloc
+  void do_deallocate(void* memory, std::size_t bytes, std::size_t alignment) override;
+  bool do_is_equal(const std::pmr::memory_resource& other) const noexcept override { return this == &other; }
+
+  Acquire acquire_;
+  Release release_;
+  void* user_;
+  std::atomic<std::uint64_t> live_{0};
+  std::atomic<std::uint64_t> peak_{0};
+};
+
+}  // namespace radvor
