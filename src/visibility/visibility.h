@@ -1,0 +1,56 @@
+// One question: which of these segments are blocked? And its sibling: what does this ray hit first?
+// Answered by Embree (embree_visibility.h) or, for tests and where Embree's code cannot be instrumented, by brute
+// force over all triangles (brute_force_visibility.h). Surfaces block from both sides.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "base/vector.h"
+
+namespace radvor {
+
+struct Segment {
+  Vec3 from;
+  Vec3 to;
+};
+
+/// What a ray meets first.
+struct FirstHit {
+  static constexpr std::uint32_t k_miss = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t triangle = k_miss;  ///< index among the triangles given at construction
+  bool front = false;               ///< the side on which the triangle's corners run counter-clockwise
+  double distance = 0;              ///< in lengths of `direction`
+};
+
+/// Immutable after construction; all calls may run on many threads at once and allocate nothing.
+/// Segments are open: the caller lifts both ends off their surfaces by at least lift().
+class Visibility {
+ public:
+  virtual ~Visibility() = default;
+
+  /// blocked[i] = 1 where some triangle lies between from and to[i], else 0. Packed by the one origin: the fast way.
+  virtual void blocked_from(const Vec3& from, std::span<const Vec3> to, std::uint8_t* blocked) const = 0;
+
+  /// The same for unrelated segments, best with neighbours close together.
+  virtual void blocked(std::span<const Segment> segments, std::uint8_t* blocked) const = 0;
+
+  /// The nearest triangle along from + t * direction, t > 0; direction of any length > 0.
+  virtual FirstHit first_hit(const Vec3& from, const Vec3& direction) const = 0;
+
+  /// Scene units by which an end must stand off a surface so that rounding (of the positions to float inside) cannot
+  /// make the surface block it: from the precision of the recentred coordinates, not a fixed epsilon.
+  virtual double lift() const = 0;
+
+  /// Bytes held by the acceleration structure (0 where it is not counted).
+  virtual std::uint64_t bytes() const = 0;
+};
+
+/// World-space triangles that block; positions and corners are copied before the constructors below return.
+struct Occluders {
+  std::span<const Vec3> positions;
+  std::span<const std::uint32_t> corners;  ///< 3 a triangle, indices into positions
+};
+
+}  // namespace radvor
