@@ -1,0 +1,70 @@
+// The scene as one body: positions welded across meshes, defects repaired and counted, triangles joined by edges.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "base/host.h"
+#include "base/vector.h"
+#include "scene/scene.h"
+
+namespace radvor {
+
+inline constexpr std::uint32_t k_none = std::numeric_limits<std::uint32_t>::max();
+
+/// A triangle that was kept. Corners run counter-clockwise about the front in world space, whatever the mesh's winding
+/// and its transform's handedness.
+struct Triangle {
+  std::array<std::uint32_t, 3> vertices;  ///< welded
+  std::array<std::uint32_t, 3> corners;   ///< the mesh's own vertex indices, in the same order
+  std::uint32_t mesh;
+  std::uint32_t source;  ///< the mesh's triangle
+  std::uint32_t material;
+};
+
+/// An undirected edge between two welded vertices with no vertex of a T-junction inside. a and b are ordered by
+/// position (x, then y, then z), so that what is derived from an edge is the same from all of its sides.
+struct Edge {
+  std::uint32_t a, b;
+};
+
+/// One side of a triangle, or the part of it that one edge makes up where T-junctions divide the side.
+struct EdgeUse {
+  std::uint32_t edge;
+  std::uint32_t triangle;
+  std::uint8_t side;  ///< from corner `side` to corner (side + 1) % 3
+  bool forward;       ///< the triangle runs the edge from a to b
+};
+
+struct WeldedScene {
+  explicit WeldedScene(std::pmr::memory_resource* memory);
+
+  std::pmr::vector<Vec3> positions;                             ///< of welded vertices, world space
+  std::pmr::vector<std::pmr::vector<std::uint32_t>> vertex_of;  ///< per mesh: welded vertex of each mesh vertex
+  std::pmr::vector<Triangle> triangles;
+  std::pmr::vector<Edge> edges;
+  std::pmr::vector<EdgeUse> uses_by_triangle;     ///< in order round each triangle
+  std::pmr::vector<std::uint32_t> first_use;      ///< per triangle (and one past the last) into uses_by_triangle
+  std::pmr::vector<std::uint32_t> uses_of_edge;   ///< indices into uses_by_triangle, grouped by edge
+  std::pmr::vector<std::uint32_t> first_of_edge;  ///< per edge (and one past the last) into uses_of_edge
+
+  Vec3 low{0.0}, high{0.0};  ///< bounds of the kept triangles
+
+  // What was found wrong and mended.
+  std::uint32_t degenerate_triangles = 0;  ///< zero area or repeated vertices: dropped
+  std::uint32_t duplicate_triangles = 0;   ///< same vertices, same side: all but the first dropped
+  std::uint32_t t_junctions = 0;           ///< vertices found inside edges of other triangles
+
+  std::span<const EdgeUse> uses_of_triangle(std::uint32_t triangle) const;
+  std::span<const std::uint32_t> uses_at_edge(std::uint32_t edge) const;
+};
+
+/// Welds positions closer than weld_distance (0: equal to the bit), drops zero-area and duplicate triangles, finds
+/// T-junctions, joins by edges. Works across meshes. Logs one line for each kind of repair.
+WeldedScene weld(const Scene& scene, double weld_distance, Host& host);
+
+}  // namespace radvor
