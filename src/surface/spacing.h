@@ -1,0 +1,25 @@
+// How dense sites are where the host leaves it open: from the scene's size and the tolerance.
+#pragma once
+
+#include "scene/facets.h"
+#include "scene/scene.h"
+#include "surface/surface.h"
+
+namespace radvor {
+
+/// What the host may say about density; 0 leaves it open.
+struct SpacingRequest {
+  Lattice lattice = Lattice::hexagonal;
+  double tolerance = 0.02;
+  double patch_spacing = 0;
+  double min_spacing = 0;
+  std::uint32_t element_levels = 0;
+  std::uint32_t max_sites = 0;
+};
+
+/// Resolved so that the scene has about 30 / tolerance patches and, at the first elements' spacing, no more sites than
+/// max_sites (estimated from areas and border lengths).
+SurfaceOptions choose_spacing(const Scene& scene, const WeldedScene& welded, const Facets& facets,
+                              const SpacingRequest& request);
+
+}  // namespace radvor

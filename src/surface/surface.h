@@ -1,0 +1,110 @@
+// The surface: every facet's Delaunay triangulation of sites, the Voronoi cells that give each site its area, and the
+// samples and patches that light is solved on. It knows no light.
+//
+//   facet --has--> triangulation of sites --corner of a triangle--> share --part of--> sample
+//
+// A *sample* is what receives (one per sector of a site, per side, shared over smooth edges); a *share* is the part
+// of a sample that lies in one facet: its clipped Voronoi cell there, with the facet's albedo. Shares are what shoots:
+// the elements. A *patch* is a group of shares that shoot together.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "base/host.h"
+#include "base/vector.h"
+#include "scene/facets.h"
+#include "scene/scene.h"
+#include "scene/welded.h"
+
+namespace radvor {
+
+enum class Lattice : std::uint32_t { hexagonal = 0, quadrilateral = 1 };
+
+/// All resolved: no zero means "default" any more (spacing.h does that).
+struct SurfaceOptions {
+  Lattice lattice = Lattice::hexagonal;
+  double patch_spacing = 1;          ///< between level-0 sites, scene units
+  std::uint32_t element_levels = 2;  ///< the first elements' lattice has patch_spacing / 2^element_levels
+  double min_spacing = 0;            ///< refinement stops here
+};
+
+struct Site {
+  Vec3 position;                  ///< the same bits for all facets that share it
+  std::uint32_t vertex = k_none;  ///< welded vertex, or k_none
+  std::uint32_t edge = k_none;    ///< welded edge that it lies inside, or k_none
+};
+
+struct Sample {
+  Vec3 point;         ///< receiver point: on `facet`, nudged from the site into its cell; not lifted off the surface
+  Vec3 normal;        ///< unit shading normal on this side
+  Vec3 facet_normal;  ///< unit normal of `facet` on this side: the direction to lift along
+  double area = 0;    ///< sum over its shares
+  std::uint32_t site;
+  std::uint32_t facet;                 ///< of its largest share
+  std::uint32_t first_share = k_none;  ///< list through Share::next_in_sample
+};
+
+struct Share {
+  Vec3 centroid;    ///< of its cell, world space
+  Color albedo;     ///< material times vertex colour at the site, at most 0.99
+  double area = 0;  ///< of its cell
+  std::uint32_t sample;
+  std::uint32_t facet;
+  std::uint32_t patch;
+  std::uint32_t vertex;  ///< in the facet's triangulation
+  std::uint32_t next_in_sample = k_none;
+  std::uint32_t other_side = k_none;  ///< the same cell seen from the other side of a two-sided facet
+  bool back = false;
+};
+
+/// A facet's triangles. Corners name the front's share (its site, sample and albedo follow; the back's is other_side).
+using ShareTriangle = std::array<std::uint32_t, 3>;
+
+/// Where a point of a facet lies among its triangles.
+struct FacetPoint {
+  ShareTriangle shares;
+  std::array<double, 3> weights;  ///< barycentric, clamped to the triangle, sum 1
+};
+
+class Surface {
+ public:
+  /// Facets of meshes that do not receive have no sites. Borders are sampled from each edge's midpoint outward,
+  /// identically from all sides; facets smaller than the spacing keep their corners (and a single triangle then needs
+  /// no triangulation of its own). Keeps references to all arguments but options.
+  Surface(const Scene& scene, const WeldedScene& welded, const Facets& facets, const SurfaceOptions& options,
+          Host& host);
+  ~Surface();
+
+  std::span<const Site> sites() const;
+  std::span<const Sample> samples() const;
+  std::span<const Share> shares() const;
+  std::uint32_t patch_count() const;
+  /// Shares of one patch, ascending.
+  std::span<const std::uint32_t> patch(std::uint32_t patch) const;
+  /// Counter-clockwise about the facet's front; empty where the mesh does not receive.
+  std::span<const ShareTriangle> triangles(std::uint32_t facet) const;
+  std::uint32_t triangle_count() const;
+  std::uint32_t constraint_count() const;
+
+  /// The share's cell, counter-clockwise about its own side's normal, star-shaped about its site; replaces polygon.
+  /// Areas of a facet's cells sum to its area to 1e-12; each point belongs to the nearest site that it sees.
+  void cell(std::uint32_t share, std::pmr::vector<Vec3>& polygon) const;
+
+  /// The triangle of a facet at a point of its plane (the nearest where rounding puts the point outside).
+  FacetPoint locate(std::uint32_t facet, const Vec2& point) const;
+
+  const Scene& scene() const;
+  const WeldedScene& welded() const;
+  const Facets& facets() const;
+
+ private:
+  struct State;
+  State* state_;
+  std::pmr::memory_resource* memory_;
+};
+
+}  // namespace radvor
