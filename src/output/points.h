@@ -1,0 +1,31 @@
+// Light at points near the surface.
+#pragma once
+
+#include <cstdint>
+#include <memory_resource>
+
+#include "output/quantity.h"
+#include "radiosity/bake.h"
+
+namespace radvor {
+
+/// The index that point queries need, built once for a bake.
+class PointIndex {
+ public:
+  explicit PointIndex(const Bake& bake);
+  ~PointIndex();
+  PointIndex(const PointIndex&) = delete;
+  PointIndex& operator=(const PointIndex&) = delete;
+
+  /// The light on the nearest surface that faces along the normal (either side of two-sided ones), at most
+  /// max_distance (scene units) away, interpolated linearly over the adaptive mesh. positions, normals and rgb hold 3
+  /// a point; found (or null) gets 1 where there is one, else 0 and rgb is 0. Parallel over points.
+  void sample(Quantity quantity, std::uint32_t count, const double* positions, const float* normals,
+              double max_distance, float* rgb, std::uint8_t* found) const;
+
+ private:
+  struct State;
+  State* state_;
+};
+
+}  // namespace radvor
