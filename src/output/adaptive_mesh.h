@@ -5,7 +5,7 @@
 #include <memory_resource>
 #include <vector>
 
-#include "radiosity/bake.h"
+#include "output/lit_surface.h"
 
 namespace radvor {
 
@@ -34,6 +34,6 @@ struct AdaptiveMesh {
 };
 
 /// From the light as it is now. A mesh that does not receive has an empty one.
-AdaptiveMesh make_adaptive_mesh(const Bake& bake, std::uint32_t mesh);
+AdaptiveMesh make_adaptive_mesh(const LitSurface& lit, std::uint32_t mesh);
 
 }  // namespace radvor

@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "output/quantity.h"
-#include "radiosity/bake.h"
 
 namespace radvor {
 
@@ -16,7 +15,7 @@ enum class VertexMode : std::uint32_t {
 
 /// Writes 3 floats for each vertex of a mesh, `stride` bytes apart. back: of two-sided surfaces (0 elsewhere). Vertices
 /// that no kept triangle uses take the light at their position where another triangle of the mesh has it, else 0.
-void write_vertices(const Bake& bake, std::uint32_t mesh, Quantity quantity, bool back, VertexMode mode, float* rgb,
-                    std::size_t stride);
+void write_vertices(const LitSurface& lit, std::uint32_t mesh, Quantity quantity, bool back, VertexMode mode,
+                    float* rgb, std::size_t stride);
 
 }  // namespace radvor
