@@ -1,0 +1,260 @@
+// A planar Delaunay triangulation that grows, shrinks and takes constraint edges: exact, incremental, without any
+// tolerance. Points are distinct; every edge is locally Delaunay unless it is a constraint; where four or more points
+// lie exactly on an empty circle (a tie), the diagonals follow the vertices' values or, without them, a rule that
+// depends on the set of points alone. Knows nothing of light.
+//
+// Handles: vertex ids count up from 0 and are stable; an id is reused only after its vertex was removed. Half-edges
+// and triangle ids are valid until the next edit. Const members write nothing: many threads may call them at once.
+// Errors are radvor::Error or std::bad_alloc, and whatever throws leaves the triangulation as it was.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "base/vector.h"
+#include "delaunay/mesh.h"
+#include "delaunay/predicates.h"
+
+namespace radvor {
+
+/// What a constraint edge is. The upper four bits are the caller's own; they follow the edge when it is split.
+namespace constraint {
+inline constexpr std::uint8_t k_border = 1;         ///< separates the domain from what is outside; blocks cells
+inline constexpr std::uint8_t k_discontinuous = 2;  ///< inside of the domain; blocks cells
+inline constexpr std::uint8_t k_continuous = 4;     ///< kept as an edge; blocks nothing
+inline constexpr std::uint8_t k_blocking = k_border | k_discontinuous;
+}  // namespace constraint
+
+/// What happens where a new constraint edge would cross an old one.
+enum class Crossing { refuse, split };
+
+enum class Where : std::uint32_t { vertex = 0, edge = 1, triangle = 2, outside = 3 };
+
+struct Location {
+  Where where = Where::outside;
+  /// where: vertex, edge or triangle: 1, 2 or 3 vertices, the triangle's counter-clockwise; the rest k_none.
+  std::array<VertexId, 3> vertices = {k_none, k_none, k_none};
+  /// In the triangle found; vertex: out of it; edge: along it; outside: in a ghost. k_none without triangles.
+  HalfEdge edge = k_none;
+};
+
+class Triangulation {
+ public:
+  explicit Triangulation(std::pmr::memory_resource* memory);
+  Triangulation(const Triangulation&) = delete;
+  Triangulation& operator=(const Triangulation&) = delete;
+
+  // ---- Points
+
+  /// Inserts a point; one that is already there gives its vertex. Splits the constraint edge it lies on exactly.
+  /// Throws invalid_geometry (not finite) or limit (neither 0 nor 2^-142 .. 2^200 in magnitude).
+  VertexId insert(Vec2 point);
+
+  /// All or nothing, in a spatial order of its own; the triangulation is that of inserting one by one in any order.
+  /// New vertices get ids in input order. vertices: count ids, or NULL. Does not fill changed().
+  void insert_many(std::span<const Vec2> points, VertexId* vertices);
+
+  /// Removes a vertex and its constraint edges; two collinear ones with the same flags become one again.
+  void remove(VertexId vertex);
+
+  /// The vertices whose stars (or constraint flags) the last insert, remove, constrain, unconstrain, split or realign
+  /// changed, each once, in no particular order, without the removed one.
+  std::span<const VertexId> changed() const { return changed_; }
+
+  std::uint32_t vertex_count() const { return vertex_count_; }
+  /// Ids are below it; some may be free after removals.
+  std::uint32_t vertex_bound() const { return static_cast<std::uint32_t>(positions_.size()); }
+  bool is_vertex(VertexId vertex) const;
+  Vec2 position(VertexId vertex) const { return positions_[vertex]; }
+
+  // ---- Constraints
+
+  /// Makes the segment a-b part of the triangulation. Vertices exactly on it split it. Where it would cross another
+  /// constraint edge: throws constraint, or with Crossing::split inserts the crossing, rounded, into both. Edges that
+  /// are constraints already get the new flags added. flags: nonzero, see namespace constraint.
+  void constrain(VertexId a, VertexId b, std::uint8_t flags, Crossing crossing = Crossing::refuse);
+
+  /// Frees the constraint edge a-b, or the collinear ones that constrain made of it. Throws constraint if there is none.
+  void unconstrain(VertexId a, VertexId b);
+
+  /// A point replaces the constraint edge a-b by a-p and p-b with the same flags, even where rounding put it beside
+  /// the line. Throws constraint where it lies beyond the triangles at the edge, so that one would invert, or is a
+  /// vertex already.
+  VertexId split(VertexId a, VertexId b, Vec2 point);
+
+  /// Flags of the edge a-b; 0: not a constraint or not an edge.
+  std::uint8_t constraint_flags(VertexId a, VertexId b) const;
+  std::uint8_t constraint_flags(HalfEdge h) const { return mesh_.constraint(h); }
+  std::uint32_t constraint_count() const;
+
+  // ---- Domain
+
+  /// Marks triangles inside or outside of the polygon that the border edges bound: outside at infinity, and the other
+  /// way beyond every border edge (even-odd, so holes and islands need no order). Later edits keep the marks; call it
+  /// again after border edges were added or freed. Throws constraint where border edges do not close.
+  void mark_domain();
+  /// Everything in the convex hull is inside, as before mark_domain.
+  void unmark_domain();
+  /// Real, and not marked as outside.
+  bool is_inside(TriangleId t) const { return !mesh_.is_ghost(t) && !(mesh_.state(t) & Triangle::k_outside); }
+
+  // ---- Walking around (all ids and half-edges must be live)
+
+  /// Below it are the triangle ids; is_triangle tells which are real (neither free nor a ghost).
+  std::uint32_t triangle_bound() const { return mesh_.record_count(); }
+  bool is_triangle(TriangleId t) const { return !mesh_.is_free(t) && !mesh_.is_ghost(t); }
+  std::uint32_t triangle_count() const;  ///< real ones, inside or not
+  std::array<VertexId, 3> triangle(TriangleId t) const { return mesh_.triangle(t).vertex; }
+
+  VertexId origin(HalfEdge h) const { return mesh_.origin(h); }
+  VertexId target(HalfEdge h) const { return mesh_.target(h); }
+  VertexId apex(HalfEdge h) const { return mesh_.apex(h); }  ///< may be k_infinite, see is_ghost
+  HalfEdge twin(HalfEdge h) const { return mesh_.twin(h); }
+  bool is_ghost(TriangleId t) const { return mesh_.is_ghost(t); }
+
+  /// A half-edge out of the vertex (its target may be k_infinite), k_none where it is the only vertex. With
+  /// rotate_ccw until it comes round: the star, neighbours and triangles (on the left of each) counter-clockwise.
+  HalfEdge out(VertexId vertex) const { return mesh_.out(vertex); }
+  HalfEdge rotate_ccw(HalfEdge out) const { return mesh_.rotate_ccw(out); }
+  HalfEdge rotate_cw(HalfEdge out) const { return mesh_.rotate_cw(out); }
+  /// The half-edge from a to b, k_none where there is none.
+  HalfEdge find_edge(VertexId a, VertexId b) const;
+
+  /// function(VertexId neighbour) for each, counter-clockwise.
+  template <class Function>
+  void for_each_neighbour(VertexId vertex, Function&& function) const {
+    const HalfEdge first = out(vertex);
+    HalfEdge h = first;
+    if (h == k_none) {
+      return;
+    }
+    do {
+      if (target(h) != k_infinite) {
+        function(target(h));
+      }
+      h = rotate_ccw(h);
+    } while (h != first);
+  }
+
+  /// function(TriangleId) for each triangle of the star inside of the domain, counter-clockwise.
+  template <class Function>
+  void for_each_inside_triangle(VertexId vertex, Function&& function) const {
+    const HalfEdge first = out(vertex);
+    HalfEdge h = first;
+    if (h == k_none) {
+      return;
+    }
+    do {
+      if (is_inside(triangle_of(h))) {
+        function(triangle_of(h));
+      }
+      h = rotate_ccw(h);
+    } while (h != first);
+  }
+
+  /// A vertex of the convex hull's half-edge: the hull edge with the hull on its left; k_none without one. The next
+  /// one counter-clockwise is hull_next.
+  HalfEdge hull_edge() const;
+  HalfEdge hull_next(HalfEdge hull) const;
+
+  // ---- Questions
+
+  /// hint: a vertex to start from (k_none or a removed one: any), and one near the answer after; or NULL.
+  Location locate(Vec2 point, VertexId* hint = nullptr) const;
+
+  /// Corner weights of a point in the triangle: affine, sum 1.
+  std::array<double, 3> barycentric(TriangleId t, Vec2 point) const;
+
+  /// Values interpolated linearly over the triangle; NaN outside of the hull or where one is unset.
+  double interpolate_linear(Vec2 point, VertexId* hint = nullptr) const;
+
+  /// Sibson's natural-neighbour interpolation; NaN likewise.
+  double interpolate_natural(Vec2 point, VertexId* hint = nullptr) const;
+
+  // ---- Values and ties
+
+  /// One value a vertex, for interpolation and ties; NaN, the initial one, is unset. ids first ... first + count - 1.
+  void set_values(std::span<const double> values, VertexId first);
+  double value(VertexId vertex) const;
+
+  /// Resolves all ties anew: the diagonals of every cocircular polygon have the least sum of |difference| of values.
+  /// Returns the number of polygons whose diagonals changed.
+  std::uint32_t realign();
+  /// The same for the polygons at the given vertices.
+  std::uint32_t realign(std::span<const VertexId> vertices);
+  /// Cocircular polygons of four or more vertices, not cut by constraints.
+  std::uint32_t tie_count() const;
+
+  // ---- Trust
+
+  /// Topology, orientation, the exact Delaunay property, constraints, domain marks and ties; throws internal with
+  /// what is wrong. Linear time.
+  void validate() const;
+
+  const Mesh& mesh() const { return mesh_; }
+  std::span<const Vec2> positions() const { return positions_; }
+  std::pmr::memory_resource* memory() const { return memory_; }
+
+ private:
+  friend class TieResolver;
+  friend class Audit;
+  class Transaction;
+
+  struct BoundaryEdge {
+    HalfEdge outer;      // the triangle beyond keeps it
+    std::uint8_t state;  // of the triangle that goes
+  };
+
+  // insert.cpp
+  static void check(Vec2 point);
+  VertexId insert_checked(Vec2 point, HalfEdge start);
+  void collect_cavity(Vec2 point, TriangleId start, HalfEdge crossed);
+  void fill_cavity(VertexId p);
+  VertexId insert_at(Vec2 point, const Location& location);
+  void insert_collinear(VertexId p, const Location& location);
+  bool conflicts(HalfEdge entry, Vec2 point) const;
+  VertexId add_vertex(Vec2 point);
+  void reserve_one();
+
+  // locate.cpp
+  HalfEdge start_near(Vec2 point, VertexId hint) const;
+  Location walk(Vec2 point, HalfEdge start) const;
+  Location straight_walk(Vec2 point, VertexId start) const;
+  Location walk_collinear(Vec2 point, HalfEdge start) const;
+
+  // flips.cpp
+  bool prefers_flip(HalfEdge h) const;
+  void legalize(std::pmr::vector<HalfEdge>& stack);
+
+  // remove.cpp
+  void remove_flat(VertexId vertex);
+
+  // constrain.cpp
+  void require_vertex(VertexId vertex) const;
+  VertexId constrain_piece(VertexId a, VertexId b, std::uint8_t flags, Crossing crossing);
+
+  void report_star(VertexId vertex);
+  void refresh_ties();
+
+  std::pmr::memory_resource* memory_;
+  Mesh mesh_;
+  std::pmr::vector<Vec2> positions_;  // x is NaN where the id is free; y then holds nothing
+  std::pmr::vector<double> values_;   // empty until a value is set
+  std::uint32_t vertex_count_ = 0;
+  VertexId free_vertex_ = k_none;
+  bool flat_ = true;      // all vertices are collinear: no real triangle
+  bool steered_ = false;  // some value was set: ties may be other than canonical
+  HalfEdge last_ = k_none;  // where the last insertion was
+  Lattice lattice_;
+
+  // Scratch that insertions keep.
+  std::pmr::vector<VertexId> changed_;
+  std::pmr::vector<HalfEdge> stack_;
+  std::pmr::vector<TriangleId> cavity_;
+  std::pmr::vector<BoundaryEdge> boundary_;
+};
+
+}  // namespace radvor
