@@ -25,7 +25,7 @@ void HostMemory::do_deallocate(void* memory, std::size_t bytes, std::size_t alig
   if (release_) {
     release_(user_, memory, bytes, alignment);
   } else if (!acquire_) {
-    ::operator delete(memory, bytes, std::align_val_t(alignment));
+    ::operator delete(memory, std::align_val_t(alignment));  // clang 14 has the sized one on request only
   }
 }
 
