@@ -9,7 +9,7 @@
 
 #include "delaunay/triangulation.h"
 
-namespace radvor {
+namespace radvor::delaunay {
 
 /// One wedge of a site's neighbourhood: between two consecutive blocking constraint edges (or the edge of the domain),
 /// or all of it where none ends at the site.
@@ -62,4 +62,4 @@ void bounded_cell(const Triangulation& triangulation, VertexId site, CellBuffer&
 /// none where they do not meet.
 void window_cell(const Triangulation& triangulation, VertexId site, std::span<const Vec2> window, CellBuffer& buffer);
 
-}  // namespace radvor
+}  // namespace radvor::delaunay

@@ -7,7 +7,7 @@
 #include <array>
 #include <cstddef>
 
-namespace radvor::expansion {
+namespace radvor::delaunay::expansion {
 
 struct Two {
   double high, low;  ///< high + low exactly, |low| <= ulp(high) / 2
@@ -154,4 +154,4 @@ Expansion<4 * A> multiplied(const Expansion<A>& a, const Expansion<2>& b) {
   return sum(scaled(a, b.part[0]), scaled(a, b.part[1]));
 }
 
-}  // namespace radvor::expansion
+}  // namespace radvor::delaunay::expansion

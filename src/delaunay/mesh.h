@@ -10,7 +10,7 @@
 #include <memory_resource>
 #include <vector>
 
-namespace radvor {
+namespace radvor::delaunay {
 
 using VertexId = std::uint32_t;
 using TriangleId = std::uint32_t;
@@ -142,4 +142,4 @@ class Mesh {
   std::uint32_t saved_free_count_ = 0;
 };
 
-}  // namespace radvor
+}  // namespace radvor::delaunay

@@ -7,7 +7,7 @@
 
 #include "base/vector.h"
 
-namespace radvor {
+namespace radvor::delaunay {
 
 /// Coordinates are 0 or within these magnitudes: in_circle is of degree 4 and must neither overflow nor underflow.
 inline constexpr double k_least_coordinate = 0x1p-142;
@@ -92,4 +92,4 @@ inline bool lexicographically_less(Vec2 a, Vec2 b) {
   return a.x < b.x || (a.x == b.x && a.y < b.y);
 }
 
-}  // namespace radvor
+}  // namespace radvor::delaunay

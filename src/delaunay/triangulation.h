@@ -18,7 +18,7 @@
 #include "delaunay/mesh.h"
 #include "delaunay/predicates.h"
 
-namespace radvor {
+namespace radvor::delaunay {
 
 /// What a constraint edge is. The upper four bits are the caller's own; they follow the edge when it is split.
 namespace constraint {
@@ -257,4 +257,4 @@ class Triangulation {
   std::pmr::vector<BoundaryEdge> boundary_;
 };
 
-}  // namespace radvor
+}  // namespace radvor::delaunay
