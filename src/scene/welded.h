@@ -43,7 +43,8 @@ struct EdgeUse {
 struct WeldedScene {
   explicit WeldedScene(std::pmr::memory_resource* memory);
 
-  std::pmr::vector<Vec3> positions;                             ///< of welded vertices, world space
+  std::pmr::vector<Vec3> positions;    ///< of welded vertices, world space
+  std::pmr::vector<double> precision;  ///< per welded vertex: how far rounding to float may have moved it, world units
   std::pmr::vector<std::pmr::vector<std::uint32_t>> vertex_of;  ///< per mesh: welded vertex of each mesh vertex
   std::pmr::vector<Triangle> triangles;
   std::pmr::vector<Edge> edges;
@@ -55,16 +56,26 @@ struct WeldedScene {
   Vec3 low{0.0}, high{0.0};  ///< bounds of the kept triangles
 
   // What was found wrong and mended.
-  std::uint32_t degenerate_triangles = 0;  ///< zero area or repeated vertices: dropped
+  std::uint32_t degenerate_triangles = 0;  ///< repeated vertices or too low to have a plane: dropped
   std::uint32_t duplicate_triangles = 0;   ///< same vertices, same side: all but the first dropped
-  std::uint32_t t_junctions = 0;           ///< vertices found inside edges of other triangles
+  std::uint32_t t_junctions = 0;           ///< vertices that lie inside edges of other triangles
 
   std::span<const EdgeUse> uses_of_triangle(std::uint32_t triangle) const;
   std::span<const std::uint32_t> uses_at_edge(std::uint32_t edge) const;
 };
 
-/// Welds positions closer than weld_distance (0: equal to the bit), drops zero-area and duplicate triangles, finds
-/// T-junctions, joins by edges. Works across meshes. Logs one line for each kind of repair.
+/// Makes one body of all meshes. Logs one line for each kind of repair.
+///
+/// Welds positions no farther apart than weld_distance (0: equal to the bit). Touching means no farther apart than
+/// weld_distance or than rounding the input to float explains (edge_chains.h). Then:
+/// - Triangles with a repeated vertex, or whose height over the longest side is within touching, are dropped; what lies
+///   on their two sides stays joined, as the apex becomes a T-junction of the longest side.
+/// - Of triangles with the same vertices and the same front all but the first (by mesh, then triangle) are dropped,
+///   whatever their material, provided their meshes cast and receive alike. Opposite ones stay, each with its front.
+/// - Every vertex that touches a segment between two corners, anywhere in the scene, away from the ends, divides it: also
+///   segments that two triangles share already, so that no vertex lies inside any edge afterwards. All sides along a
+///   segment get the same edges, so the body has no boundary that the welded triangles did not have.
+/// Throws Error (limit) beyond 2^32 - 2 vertices or triangles.
 WeldedScene weld(const Scene& scene, double weld_distance, Host& host);
 
 }  // namespace radvor

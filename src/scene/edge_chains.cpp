@@ -1,0 +1,247 @@
+#include "scene/edge_chains.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/position_welding.h"
+
+namespace radvor {
+namespace {
+
+double squared_length(const Vec3& v) {
+  return dot(v, v);
+}
+
+// Longer first; of equally long ones the ends decide, so that the order is strict whatever the numbering.
+bool longer(const Tolerance& t, std::array<std::uint32_t, 2> a, std::array<std::uint32_t, 2> b) {
+  const auto& p = t.positions;
+  const double length_a = squared_length(p[a[0]] - p[a[1]]);
+  const double length_b = squared_length(p[b[0]] - p[b[1]]);
+  if (length_a != length_b) {
+    return length_a > length_b;
+  }
+  for (auto* ends : {&a, &b}) {
+    if (lies_before(p[(*ends)[1]], p[(*ends)[0]])) {
+      std::swap((*ends)[0], (*ends)[1]);
+    }
+  }
+  return a[0] != b[0] ? lies_before(p[a[0]], p[b[0]]) : a[1] != b[1] && lies_before(p[a[1]], p[b[1]]);
+}
+
+// Separating axes of a segment and a box (Ericson, Real-Time Collision Detection, 5.3.3), the box grown by `margin`.
+class SegmentProbe {
+ public:
+  SegmentProbe(const Vec3& from, const Vec3& to, double margin)
+      : middle_(0.5 * (from + to)), half_(0.5 * (to - from)), reach_(abs(half_)), margin_(margin) {}
+
+  bool touches(const Box& box) const {
+    const Vec3 size = 0.5 * (box.high - box.low) + margin_;
+    const Vec3 offset = middle_ - 0.5 * (box.low + box.high);
+    const Vec3 apart = abs(offset);
+    if (apart.x > size.x + reach_.x || apart.y > size.y + reach_.y || apart.z > size.z + reach_.z) {
+      return false;
+    }
+    const Vec3 normal = abs(cross(offset, half_));
+    return normal.x <= size.y * reach_.z + size.z * reach_.y && normal.y <= size.x * reach_.z + size.z * reach_.x &&
+           normal.z <= size.x * reach_.y + size.y * reach_.x;
+  }
+
+ private:
+  static Vec3 abs(const Vec3& v) { return {std::abs(v.x), std::abs(v.y), std::abs(v.z)}; }
+  Vec3 middle_, half_, reach_;
+  double margin_;
+};
+
+}  // namespace
+
+int apex_of_sliver(const Tolerance& tolerance, const std::array<std::uint32_t, 3>& v) {
+  int apex = 0;
+  for (int i = 1; i < 3; ++i) {
+    const auto side = [&](int opposite) {
+      return std::array{v[static_cast<std::size_t>((opposite + 1) % 3)], v[static_cast<std::size_t>((opposite + 2) % 3)]};
+    };
+    if (longer(tolerance, side(i), side(apex))) {
+      apex = i;
+    }
+  }
+  const Vec3& a = tolerance.positions[v[static_cast<std::size_t>((apex + 1) % 3)]];
+  const Vec3& b = tolerance.positions[v[static_cast<std::size_t>((apex + 2) % 3)]];
+  const Vec3& c = tolerance.positions[v[static_cast<std::size_t>(apex)]];
+  const double twice_area = length(cross(b - a, c - a));
+  return twice_area <= tolerance.touching(v[0], v[1], v[2]) * length(b - a) ? apex : -1;
+}
+
+EdgeChains::EdgeChains(const Tolerance& tolerance, std::pmr::memory_resource* memory)
+    : tolerance_(tolerance),
+      memory_(memory),
+      segments_(memory),
+      table_(tolerance.positions.size() * 3, memory),  // Euler: about three edges a vertex
+      children_(memory),
+      apexes_(memory),
+      tree_vertex_(memory),
+      in_tree_(tolerance.positions.size(), false, memory),
+      stack_(memory) {
+  segments_.reserve(tolerance.positions.size() * 3);
+}
+
+std::uint32_t EdgeChains::segment_between(std::uint32_t a, std::uint32_t b) {
+  if (a > b) {
+    std::swap(a, b);
+  }
+  const std::uint32_t next = segment_count();
+  const std::uint32_t found = table_.find_or_insert(hash_pair(a, b), next, [&](std::uint32_t other) {
+    return segments_[other].a == a && segments_[other].b == b;
+  });
+  if (found == next) {
+    segments_.push_back({a, b});
+  }
+  return found;
+}
+
+double EdgeChains::parameter(const Segment& segment, std::uint32_t vertex) const {
+  const Vec3& a = tolerance_.positions[segment.a];
+  const Vec3 side = tolerance_.positions[segment.b] - a;
+  return dot(tolerance_.positions[vertex] - a, side) / squared_length(side);
+}
+
+void EdgeChains::add_triangle(const std::array<std::uint32_t, 3>& vertices, int apex) {
+  for (int i = 0; i < 3; ++i) {
+    const std::uint32_t from = vertices[static_cast<std::size_t>((i + 1) % 3)];
+    const std::uint32_t to = vertices[static_cast<std::size_t>((i + 2) % 3)];
+    const std::uint32_t segment = segment_between(from, to);
+    const std::uint32_t opposite = vertices[static_cast<std::size_t>(i)];
+    if (i == apex) {
+      apexes_.push_back({segment, opposite, parameter(segments_[segment], opposite)});
+    }
+    if (!in_tree_[opposite]) {
+      in_tree_[opposite] = true;
+      tree_vertex_.push_back(opposite);
+    }
+  }
+}
+
+bool EdgeChains::is_smaller(const Segment& a, const Segment& b) const {
+  return longer(tolerance_, {b.a, b.b}, {a.a, a.b});
+}
+
+void EdgeChains::find_inside(const BoxTree& tree, std::uint32_t index, std::pmr::vector<Inside>& found) const {
+  const Segment& segment = segments_[index];
+  const Vec3& a = tolerance_.positions[segment.a];
+  const Vec3 side = tolerance_.positions[segment.b] - a;
+  const double side_length = length(side);
+  // Boxes are grown by their vertex's share of the tolerance already: the rest is that of the ends.
+  const SegmentProbe probe(a, a + side, tolerance_.touching(segment.a, segment.b, segment.a));
+  tree.walk([&](const Box& box) { return probe.touches(box); },
+            [&](std::uint32_t item) {
+              const std::uint32_t vertex = tree_vertex_[item];
+              if (vertex == segment.a || vertex == segment.b) {
+                return;
+              }
+              const double touching = tolerance_.touching(segment.a, segment.b, vertex);
+              const double along = parameter(segment, vertex);
+              const Vec3 off = tolerance_.positions[vertex] - (a + along * side);
+              // A vertex that nearly coincides with an end is that end's twin, not inside.
+              const double to_end = std::min(along, 1 - along) * side_length;
+              if (to_end > 2 * touching && squared_length(off) <= touching * touching) {
+                found.push_back({index, vertex, along});
+              }
+            });
+}
+
+// Replaces one segment by those between the vertices inside it. Each must be smaller, or splitting need not end: where
+// rounding makes one longer (two twins across a segment hardly longer than the tolerance) the segment stays whole.
+void EdgeChains::divide(std::span<Inside> inside) {
+  const std::uint32_t parent = inside.front().segment;
+  std::sort(inside.begin(), inside.end(), [&](const Inside& a, const Inside& b) {
+    return a.along != b.along ? a.along < b.along
+                              : lies_before(tolerance_.positions[a.vertex], tolerance_.positions[b.vertex]);
+  });
+  const auto end = std::unique(inside.begin(), inside.end(),
+                               [](const Inside& a, const Inside& b) { return a.vertex == b.vertex; });
+  const auto for_each_part = [&](auto&& function) {
+    std::uint32_t from = segments_[parent].a;
+    for (auto i = inside.begin(); i != end; ++i) {
+      function(from, i->vertex);
+      from = i->vertex;
+    }
+    function(from, segments_[parent].b);
+  };
+  bool all_smaller = true;
+  for_each_part([&](std::uint32_t from, std::uint32_t to) {
+    all_smaller = all_smaller && is_smaller({from, to}, segments_[parent]);
+  });
+  if (!all_smaller) {
+    return;
+  }
+  segments_[parent].first_child = static_cast<std::uint32_t>(children_.size());
+  for_each_part([&](std::uint32_t from, std::uint32_t to) { children_.push_back(segment_between(from, to)); });
+  segments_[parent].child_count = static_cast<std::uint32_t>(children_.size()) - segments_[parent].first_child;
+}
+
+void EdgeChains::split(const Jobs& jobs) {
+  constexpr std::uint32_t k_chunk = 4096;
+  std::pmr::vector<Box> boxes(tree_vertex_.size(), memory_);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const std::uint32_t vertex = tree_vertex_[i];
+    // Grown so that, with the margin of a probe, the sum is no less than the tolerance of the three together.
+    const double share = tolerance_.touching(vertex, vertex, vertex);
+    boxes[i].add(tolerance_.positions[vertex] - share);
+    boxes[i].add(tolerance_.positions[vertex] + share);
+  }
+  const BoxTree tree(boxes, memory_);
+
+  std::pmr::vector<std::pmr::vector<Inside>> found(memory_);
+  std::pmr::vector<Inside> inside(memory_);
+  for (std::uint32_t begin = 0; begin < segment_count();) {
+    const std::uint32_t end = segment_count();
+    found.resize((end - begin + k_chunk - 1) / k_chunk);
+    jobs.for_each(static_cast<std::uint32_t>(found.size()), [&](std::uint32_t chunk) {
+      found[chunk].clear();
+      const std::uint32_t first = begin + chunk * k_chunk;
+      for (std::uint32_t i = first; i < std::min(end, first + k_chunk); ++i) {
+        find_inside(tree, i, found[chunk]);
+      }
+    });
+    inside.assign(apexes_.begin(), apexes_.end());
+    apexes_.clear();  // all belong to the segments of the first round
+    for (const auto& part : found) {
+      inside.insert(inside.end(), part.begin(), part.end());
+    }
+    std::stable_sort(inside.begin(), inside.end(),
+                     [](const Inside& a, const Inside& b) { return a.segment < b.segment; });
+    for (std::size_t i = 0; i < inside.size();) {
+      std::size_t j = i + 1;
+      while (j < inside.size() && inside[j].segment == inside[i].segment) {
+        ++j;
+      }
+      divide(std::span(inside).subspan(i, j - i));
+      i = j;
+    }
+    begin = end;
+  }
+}
+
+void EdgeChains::chain(std::uint32_t from, std::uint32_t to, std::pmr::vector<Link>& links) {
+  stack_.assign(1, {from, to, segment_between(from, to)});
+  while (!stack_.empty()) {
+    const Link link = stack_.back();
+    stack_.pop_back();
+    const Segment& segment = segments_[link.segment];
+    if (segment.child_count == 0) {
+      links.push_back(link);
+      continue;
+    }
+    // The last part is pushed first.
+    const bool forward = link.from == segment.a;
+    std::uint32_t end = link.to;
+    for (std::uint32_t i = 0; i < segment.child_count; ++i) {
+      const std::uint32_t offset = forward ? segment.child_count - 1 - i : i;
+      const std::uint32_t child = children_[segment.first_child + offset];
+      const std::uint32_t start = segments_[child].a == end ? segments_[child].b : segments_[child].a;
+      stack_.push_back({start, end, child});
+      end = start;
+    }
+  }
+}
+
+}  // namespace radvor
