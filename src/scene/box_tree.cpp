@@ -16,7 +16,8 @@ void Box::add(const Box& box) {
 }
 
 double Box::squared_distance(const Vec3& point) const {
-  const Vec3 beyond{std::max({low.x - point.x, point.x - high.x, 0.0}), std::max({low.y - point.y, point.y - high.y, 0.0}),
+  const Vec3 beyond{std::max({low.x - point.x, point.x - high.x, 0.0}),
+                    std::max({low.y - point.y, point.y - high.y, 0.0}),
                     std::max({low.z - point.z, point.z - high.z, 0.0})};
   return dot(beyond, beyond);
 }

@@ -58,7 +58,8 @@ int apex_of_sliver(const Tolerance& tolerance, const std::array<std::uint32_t, 3
   int apex = 0;
   for (int i = 1; i < 3; ++i) {
     const auto side = [&](int opposite) {
-      return std::array{v[static_cast<std::size_t>((opposite + 1) % 3)], v[static_cast<std::size_t>((opposite + 2) % 3)]};
+      return std::array{v[static_cast<std::size_t>((opposite + 1) % 3)],
+                        v[static_cast<std::size_t>((opposite + 2) % 3)]};
     };
     if (longer(tolerance, side(i), side(apex))) {
       apex = i;
@@ -89,9 +90,8 @@ std::uint32_t EdgeChains::segment_between(std::uint32_t a, std::uint32_t b) {
     std::swap(a, b);
   }
   const std::uint32_t next = segment_count();
-  const std::uint32_t found = table_.find_or_insert(hash_pair(a, b), next, [&](std::uint32_t other) {
-    return segments_[other].a == a && segments_[other].b == b;
-  });
+  const std::uint32_t found = table_.find_or_insert(
+      hash_pair(a, b), next, [&](std::uint32_t other) { return segments_[other].a == a && segments_[other].b == b; });
   if (found == next) {
     segments_.push_back({a, b});
   }
@@ -156,8 +156,8 @@ void EdgeChains::divide(std::span<Inside> inside) {
     return a.along != b.along ? a.along < b.along
                               : lies_before(tolerance_.positions[a.vertex], tolerance_.positions[b.vertex]);
   });
-  const auto end = std::unique(inside.begin(), inside.end(),
-                               [](const Inside& a, const Inside& b) { return a.vertex == b.vertex; });
+  const auto end =
+      std::unique(inside.begin(), inside.end(), [](const Inside& a, const Inside& b) { return a.vertex == b.vertex; });
   const auto for_each_part = [&](auto&& function) {
     std::uint32_t from = segments_[parent].a;
     for (auto i = inside.begin(); i != end; ++i) {

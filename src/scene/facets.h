@@ -31,7 +31,7 @@ struct Facet {
   std::uint32_t first_triangle, triangle_count;  ///< into Facets::triangles
   Frame frame;
   double area;  ///< of its triangles, in their plane
-  bool flat;    ///< the shading normal is the frame's everywhere; else interpolate corner_normals
+  bool flat;    ///< the shading normal is the frame's everywhere; else interpolate: shading_normal()
 };
 
 /// How light behaves across an edge.
@@ -54,11 +54,27 @@ struct Facets {
   std::span<const std::uint32_t> triangles_of(std::uint32_t facet) const;
 };
 
-/// Grows facets over shared edges while planar (to a distance relative to the facet's size, and an angle), with the
-/// same mesh and material, equal vertex colours along the edge and, where the mesh has normals, the facet's normal at
-/// all corners; otherwise every triangle is a facet. A facet whose outline overlaps itself in projection falls back to
-/// its triangles. crease_angle (radians) decides smooth and sharp where a mesh has no normals, and then the corner
-/// normals are angle-weighted means over the triangles round a vertex that smooth edges join.
+/// Grows facets over edges that two triangles of the same mesh and material run in opposite directions while they are
+/// planar, the vertex colours along the edge are equal and, where the mesh has normals, all corner normals are the
+/// facet's; a triangle with other normals is a facet of its own.
+/// - Planar means: no vertex is farther from the facet's plane than rounding explains, plus a millionth of the facet's
+///   size: rays must not meet the triangles before they meet the plane. Neighbours bend by less than ten degrees.
+/// - A facet whose triangles overlap in projection falls back to its triangles.
+/// - Facets are connected over edges, may have holes, and may touch themselves in a vertex or along an edge that is not
+///   manifold (a wall standing on a floor): such an edge is used twice by the same facet and is sharp.
+/// - Frames: u runs along the longest boundary edge. Which triangles make up a facet does not depend on their order.
+///
+/// An edge between facets is smooth where exactly two triangles run it in opposite directions, both or none of them
+/// receive and are two-sided, and their normals agree: the given ones at both ends where both meshes have normals (of
+/// any two meshes), else the facets' within crease_angle (radians).
+///
+/// Corner normals are the given ones, on the front side: turned over where those of a triangle point behind it on the
+/// whole, bent up to its plane where just one does, the facet's where they are no directions. In meshes without normals
+/// they are angle-weighted means over the triangles round a vertex that edges other than sharp ones join.
 Facets find_facets(const Scene& scene, const WeldedScene& welded, double crease_angle, Host& host);
+
+/// Of a point on a facet: the frame's normal where it is flat, else interpolated in the triangle that the point is in
+/// or nearest to. Takes time in proportion to the facet's triangles.
+Vec3 shading_normal(const Facets& facets, const WeldedScene& welded, std::uint32_t facet, const Vec3& point);
 
 }  // namespace radvor

@@ -43,9 +43,8 @@ WeldedPositions weld_equal(const Scene& scene, std::pmr::memory_resource* memory
       const Vec3 local(mesh.positions[i]);
       const Vec3 p = transform_point(mesh.transform, local) + 0.0;  // -0 becomes 0
       const auto next = static_cast<std::uint32_t>(result.positions.size());
-      const std::uint32_t vertex = table.find_or_insert(hash_position(p), next, [&](std::uint32_t other) {
-        return result.positions[other] == p;
-      });
+      const std::uint32_t vertex = table.find_or_insert(
+          hash_position(p), next, [&](std::uint32_t other) { return result.positions[other] == p; });
       if (vertex == next) {
         result.positions.push_back(p);
         result.precision.push_back(0);

@@ -28,7 +28,8 @@ void check_limits(const Scene& scene) {
   }
   constexpr std::uint64_t k_most = k_none / 8;  // uses and segments are counted in 32 bits too
   if (vertices > k_most || triangles > k_most) {
-    throw Error(ErrorCode::limit, "the scene has %llu vertices and %llu triangles; no more than %llu of each are possible",
+    throw Error(ErrorCode::limit,
+                "the scene has %llu vertices and %llu triangles; no more than %llu of each are possible",
                 static_cast<unsigned long long>(vertices), static_cast<unsigned long long>(triangles),
                 static_cast<unsigned long long>(k_most));
   }
@@ -66,12 +67,13 @@ void keep_triangles(const Scene& scene, const Tolerance& tolerance, EdgeChains& 
       const Corners key = turned(vertices);
       const auto next = static_cast<std::uint32_t>(welded.triangles.size());
       const std::uint64_t kind = (mesh.casts ? 2u : 0u) | (mesh.receives ? 1u : 0u);
-      const std::uint32_t first = known.find_or_insert(
-          hash(std::uint64_t{key[0]} << 32 | key[1], std::uint64_t{key[2]} << 2 | kind), next, [&](std::uint32_t other) {
-            const Mesh& other_mesh = scene.meshes[welded.triangles[other].mesh];
-            return other_mesh.casts == mesh.casts && other_mesh.receives == mesh.receives &&
-                   turned(welded.triangles[other].vertices) == key;
-          });
+      const std::uint32_t first =
+          known.find_or_insert(hash(std::uint64_t{key[0]} << 32 | key[1], std::uint64_t{key[2]} << 2 | kind), next,
+                               [&](std::uint32_t other) {
+                                 const Mesh& other_mesh = scene.meshes[welded.triangles[other].mesh];
+                                 return other_mesh.casts == mesh.casts && other_mesh.receives == mesh.receives &&
+                                        turned(welded.triangles[other].vertices) == key;
+                               });
       if (first != next) {
         ++welded.duplicate_triangles;
         continue;
@@ -221,6 +223,7 @@ WeldedScene weld(const Scene& scene, double weld_distance, Host& host) {
   check_limits(scene);
   std::pmr::memory_resource* memory = &host.memory;
   WeldedScene welded(memory);
+  welded.weld_distance = weld_distance;
   {
     WeldedPositions points = weld_positions(scene, weld_distance, memory);
     welded.positions = std::move(points.positions);

@@ -54,6 +54,7 @@ struct WeldedScene {
   std::pmr::vector<std::uint32_t> first_of_edge;  ///< per edge (and one past the last) into uses_of_edge
 
   Vec3 low{0.0}, high{0.0};  ///< bounds of the kept triangles
+  double weld_distance = 0;  ///< it was made with
 
   // What was found wrong and mended.
   std::uint32_t degenerate_triangles = 0;  ///< repeated vertices or too low to have a plane: dropped
@@ -72,7 +73,8 @@ struct WeldedScene {
 ///   on their two sides stays joined, as the apex becomes a T-junction of the longest side.
 /// - Of triangles with the same vertices and the same front all but the first (by mesh, then triangle) are dropped,
 ///   whatever their material, provided their meshes cast and receive alike. Opposite ones stay, each with its front.
-/// - Every vertex that touches a segment between two corners, anywhere in the scene, away from the ends, divides it: also
+/// - Every vertex that touches a segment between two corners, anywhere in the scene, away from the ends, divides it:
+/// also
 ///   segments that two triangles share already, so that no vertex lies inside any edge afterwards. All sides along a
 ///   segment get the same edges, so the body has no boundary that the welded triangles did not have.
 /// Throws Error (limit) beyond 2^32 - 2 vertices or triangles.
