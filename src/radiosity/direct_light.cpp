@@ -1,0 +1,96 @@
+#include "radiosity/direct_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "radiosity/punctual_light.h"
+
+namespace radvor {
+
+namespace {
+
+constexpr double k_pi = 3.14159265358979323846;
+
+bool is_dark(const Color& color) {
+  return !(color.r > 0 || color.g > 0 || color.b > 0);
+}
+
+}  // namespace
+
+DirectLight::DirectLight(const Scene& scene, const WeldedScene& welded, const Facets& facets, double tolerance,
+                         Host& host)
+    : punctual_(&host.memory), emitters_(&host.memory), emitting_facets_(&host.memory) {
+  // Twice the diameter of the bounds reaches out of them from anywhere inside; a scene of one point still has a length.
+  far_ = std::max(2 * glm::length(welded.high - welded.low), 1e-3);
+
+  for (const Light& light : scene.lights) {
+    if (is_dark(light.color)) {
+      continue;
+    }
+    if (light.type == LightType::sky) {
+      sky_radiance_ += light.color;
+    } else {
+      punctual_.push_back(light);
+    }
+  }
+  if (!is_dark(sky_radiance_)) {
+    sky_.emplace(tolerance, &host.memory);
+  }
+
+  double area = 0, power = 0;
+  for (const Facet& facet : facets.facets) {
+    area += facet.area;
+    const Material& material = scene.materials[facet.material];
+    if (is_dark(material.emission)) {
+      continue;
+    }
+    const std::span<const std::uint32_t> triangles(&facets.triangles[facet.first_triangle], facet.triangle_count);
+    for (int side = 0; side < (material.two_sided ? 2 : 1); ++side) {
+      const auto first = static_cast<std::uint32_t>(emitters_.size());
+      for (const std::uint32_t index : triangles) {
+        const auto& vertices = welded.triangles[index].vertices;
+        Emitter emitter;
+        for (std::size_t k = 0; k < 3; ++k) {
+          emitter.corners[side == 0 ? k : 2 - k] = welded.positions[vertices[k]];
+        }
+        const Vec3 twice = glm::cross(emitter.corners[1] - emitter.corners[0], emitter.corners[2] - emitter.corners[0]);
+        emitter.area = 0.5 * glm::length(twice);
+        if (emitter.area == 0) {
+          continue;
+        }
+        emitter.normal = glm::normalize(twice);
+        emitter.radiosity = k_pi * material.emission;
+        power += emitter.area * luminance(emitter.radiosity);
+        emitters_.push_back(emitter);
+      }
+      emitting_facets_.push_back({first, static_cast<std::uint32_t>(emitters_.size()) - first});
+    }
+  }
+  accuracy_.tolerance = tolerance;
+  accuracy_.mean_irradiance = area > 0 && power > 0 ? power / area : 1;
+}
+
+std::uint32_t DirectLight::source_count() const {
+  return static_cast<std::uint32_t>(punctual_.size() + (sky_ ? 1 : 0) + emitting_facets_.size());
+}
+
+Color DirectLight::irradiance(std::uint32_t source, const Receiver& receiver, Tracer& tracer) const {
+  if (source < punctual_.size()) {
+    return irradiance_of_punctual_light(punctual_[source], receiver, tracer, far_);
+  }
+  source -= static_cast<std::uint32_t>(punctual_.size());
+  if (sky_) {
+    if (source == 0) {
+      return k_pi * sky_radiance_ * sky_->open_share(receiver, tracer, far_);
+    }
+    --source;
+  }
+  Color sum(0.0);
+  const EmitterRange range = emitting_facets_[source];
+  for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
+    sum += irradiance_of_emitter(emitters_[i], receiver, tracer, accuracy_);
+  }
+  return sum;
+}
+
+}  // namespace radvor

@@ -1,0 +1,50 @@
+// All light sources of a scene, ready to shine on receivers: points, spots, suns, the sky, and surfaces that emit.
+#pragma once
+
+#include <memory_resource>
+#include <optional>
+#include <vector>
+
+#include "base/host.h"
+#include "radiosity/emitter.h"
+#include "radiosity/receiver.h"
+#include "radiosity/sky.h"
+#include "radiosity/tracer.h"
+#include "scene/facets.h"
+#include "scene/scene.h"
+#include "scene/welded.h"
+
+namespace radvor {
+
+class DirectLight {
+ public:
+  DirectLight(const Scene& scene, const WeldedScene& welded, const Facets& facets, double tolerance, Host& host);
+
+  /// A source is one light, the sky (all skies together), or the emitting triangles of one facet and side. Dark ones
+  /// are none.
+  std::uint32_t source_count() const;
+
+  /// What one source adds at a receiver, W m^-2.
+  Color irradiance(std::uint32_t source, const Receiver& receiver, Tracer& tracer) const;
+
+  std::span<const Light> punctual_lights() const { return punctual_; }
+  std::span<const Emitter> emitters() const { return emitters_; }
+  const Color& sky_radiance() const { return sky_radiance_; }
+  /// Leads out of the scene from anywhere in it.
+  double far() const { return far_; }
+
+ private:
+  struct EmitterRange {
+    std::uint32_t first, count;
+  };
+
+  std::pmr::vector<Light> punctual_;
+  std::pmr::vector<Emitter> emitters_;
+  std::pmr::vector<EmitterRange> emitting_facets_;
+  std::optional<Sky> sky_;
+  Color sky_radiance_{0.0};
+  EmitterAccuracy accuracy_;
+  double far_ = 1;
+};
+
+}  // namespace radvor

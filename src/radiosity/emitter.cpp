@@ -1,0 +1,119 @@
+#include "radiosity/emitter.h"
+
+#include <cstddef>
+#include <span>
+
+#include "radiosity/form_factor.h"
+
+namespace radvor {
+
+namespace {
+
+struct Part {
+  std::array<Vec3, 3> corners;
+  double form_factor;
+  int depth;
+};
+
+// The four children of a triangle, cut at the midpoints of its sides; the last is the middle one.
+std::array<std::array<Vec3, 3>, 4> quarter(const std::array<Vec3, 3>& t) {
+  const Vec3 ab = 0.5 * (t[0] + t[1]), bc = 0.5 * (t[1] + t[2]), ca = 0.5 * (t[2] + t[0]);
+  return {{{t[0], ab, ca}, {ab, t[1], bc}, {ca, bc, t[2]}, {bc, ca, ab}}};
+}
+
+Vec3 centre(const std::array<Vec3, 3>& t) {
+  return (t[0] + t[1] + t[2]) / 3.0;
+}
+
+constexpr int k_max_depth = 7;
+constexpr std::size_t k_stack = 3 * k_max_depth + 4;
+
+// Up to four parts of one emitter, seen together: 4 rays each make one packet of 16.
+struct Verdict {
+  int hidden = 0, seen = 0;
+  double kernel_seen = 0, kernel_all = 0;
+};
+
+void look(const Emitter& emitter, const Receiver& receiver, Tracer& tracer, std::span<const Part> parts,
+          std::array<Verdict, 4>& verdicts) {
+  std::array<Vec3, 16> targets;
+  std::array<double, 16> weights;
+  std::array<std::size_t, 16> owner;
+  std::array<std::uint8_t, 16> blocked;
+  std::size_t count = 0;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    for (const auto& child : quarter(parts[p].corners)) {
+      const Vec3 point = centre(child);
+      const double weight = kernel(receiver.point, receiver.normal, point, emitter.normal);
+      if (weight > 0) {  // points under the horizon are not blocked: they are not there
+        targets[count] = point + emitter.normal * tracer.lift();
+        weights[count] = weight;
+        owner[count++] = p;
+      }
+    }
+  }
+  tracer.blocked_from(receiver.lifted, std::span(targets.data(), count), blocked.data());
+  for (std::size_t k = 0; k < count; ++k) {
+    Verdict& verdict = verdicts[owner[k]];
+    verdict.kernel_all += weights[k];
+    verdict.kernel_seen += blocked[k] ? 0 : weights[k];
+    (blocked[k] ? verdict.hidden : verdict.seen) += 1;
+  }
+}
+
+}  // namespace
+
+Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tracer& tracer,
+                            const EmitterAccuracy& accuracy) {
+  const double whole = polygon_form_factor(receiver.point, receiver.normal, emitter.corners, emitter.normal);
+  ++tracer.counters.form_factors;
+  if (whole <= 0) {
+    ++tracer.counters.skipped_facing;
+    return Color(0.0);
+  }
+  // Form factors relative to the mean irradiance: where rays disagree, a part stays whole when it is worth less than
+  // this. A penumbra has some 2^depth such parts with independent errors, so far less than their sum is lost.
+  const double may_stay = 0.25 * accuracy.tolerance * accuracy.mean_irradiance / luminance(emitter.radiosity);
+  double visible = 0;
+  std::array<Part, k_stack> stack;  // parts to be quartered
+  std::size_t size = 0;
+
+  const auto settle = [&](std::span<const Part> parts) {
+    std::array<Verdict, 4> verdicts;
+    look(emitter, receiver, tracer, parts, verdicts);
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      const Verdict& verdict = verdicts[p];
+      const bool agreed = (verdict.hidden == 0) != (verdict.seen == 0);
+      if (agreed) {
+        visible += verdict.seen > 0 ? parts[p].form_factor : 0;
+      } else if (parts[p].form_factor > may_stay && parts[p].depth < k_max_depth) {
+        stack[size++] = parts[p];
+      } else if (verdict.kernel_all > 0) {
+        visible += parts[p].form_factor * verdict.kernel_seen / verdict.kernel_all;
+      }
+    }
+  };
+
+  const Part root{emitter.corners, whole, 0};
+  if (whole > may_stay) {
+    stack[size++] = root;  // what matters gets 16 rays at least, in 4 parts
+  } else {
+    settle(std::span(&root, 1));
+  }
+  while (size > 0) {
+    const Part part = stack[--size];
+    std::array<Part, 4> children;
+    std::size_t count = 0;
+    for (const auto& corners : quarter(part.corners)) {
+      const double form_factor = polygon_form_factor(receiver.point, receiver.normal, corners, emitter.normal);
+      ++tracer.counters.form_factors;
+      if (form_factor > 0) {
+        children[count++] = {corners, form_factor, part.depth + 1};
+      }
+    }
+    settle(std::span(children.data(), count));
+  }
+  return emitter.radiosity * visible;
+}
+
+}  // namespace radvor

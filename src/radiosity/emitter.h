@@ -1,0 +1,32 @@
+// Surfaces that emit, as light sources: the exact form factor of each triangle, times visibility found by splitting the
+// triangle where rays disagree.
+#pragma once
+
+#include <array>
+#include <memory_resource>
+#include <vector>
+
+#include "radiosity/receiver.h"
+#include "radiosity/tracer.h"
+
+namespace radvor {
+
+struct Emitter {
+  std::array<Vec3, 3> corners;  ///< counter-clockwise about the side that emits
+  Vec3 normal;                  ///< unit
+  Color radiosity;              ///< pi * emitted radiance, W m^-2
+  double area;
+};
+
+struct EmitterAccuracy {
+  double mean_irradiance = 1;  ///< what the scene's receivers get on the average, luminance, W m^-2: sets what matters
+  double tolerance = 0.02;
+};
+
+/// Irradiance from one emitter. A part of it whose rays disagree is quartered until what is at stake is under the
+/// tolerance's share of the mean irradiance; the last parts take the share of their points that is seen, weighted by
+/// the kernel. Points under the receiver's horizon are not there, rather than blocked.
+Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tracer& tracer,
+                            const EmitterAccuracy& accuracy);
+
+}  // namespace radvor

@@ -1,0 +1,56 @@
+// Where light ends that no receiver takes: out of the scene, or on backs. Measured by rays of its own, so that the
+// energy account closes only if the transport is right.
+#pragma once
+
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "base/host.h"
+#include "radiosity/direct_light.h"
+#include "radiosity/shooting_tree.h"
+#include "radiosity/tracer.h"
+#include "scene/scene.h"
+#include "scene/welded.h"
+
+namespace radvor {
+
+/// Shares of a power: the rest lands on surfaces that receive.
+struct Fate {
+  double escaped = 0;
+  double backs = 0;  ///< backs of one-sided surfaces, and meshes that do not receive
+};
+
+class FateMeter {
+ public:
+  /// occluders: the welded triangle of each triangle given to the visibility. Keeps references to all arguments.
+  FateMeter(const Scene& scene, const WeldedScene& welded, const Visibility& visibility,
+            std::span<const std::uint32_t> occluders, std::uint64_t seed)
+      : scene_(scene), welded_(welded), visibility_(visibility), occluders_(occluders), seed_(seed) {}
+
+  struct Powers {
+    double emitted = 0, escaped = 0, backs = 0;  ///< W, RGB summed
+    std::uint64_t rays = 0;
+  };
+
+  /// What the light sources emit and what becomes of it before the first reflection. Sun and sky emit what enters the
+  /// scene's bounding sphere.
+  Powers of_sources(const DirectLight& light, Host& host) const;
+
+  /// The fate of what each root reflects, diffusely and uniformly over its elements; in order of the roots.
+  void of_roots(const ShootingTree& tree, std::span<Fate> fates, Host& host) const;
+
+  static constexpr std::uint32_t k_rays_per_root = 64;
+
+ private:
+  enum class End { receiver, back, escape };
+  End follow(const Vec3& from, const Vec3& direction) const;
+
+  const Scene& scene_;
+  const WeldedScene& welded_;
+  const Visibility& visibility_;
+  std::span<const std::uint32_t> occluders_;
+  std::uint64_t seed_;
+};
+
+}  // namespace radvor

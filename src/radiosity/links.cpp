@@ -1,0 +1,170 @@
+#include "radiosity/links.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace radvor {
+
+namespace {
+
+constexpr std::size_t k_batch = 64;  // rays that wait for each other: four packets
+
+// Points of a cell in equal strata of a fan about its centroid. `part` of `count`.
+Vec3 point_of_cell(std::span<const Vec3> polygon, const Vec3& centroid, std::uint32_t part, std::uint32_t count) {
+  if (count == 1) {
+    return centroid;
+  }
+  // Round the fan by triangles, rings outwards by the golden ratio: every prefix is spread over cell and radius.
+  const double turn = (part + 0.5) / count * static_cast<double>(polygon.size());
+  const auto corner = std::min(static_cast<std::size_t>(turn), polygon.size() - 1);
+  const double along = turn - static_cast<double>(corner);
+  const double ring = std::fmod(0.5 + part * 0.6180339887498949, 1.0);
+  const Vec3 rim = glm::mix(polygon[corner], polygon[(corner + 1) % polygon.size()], along);
+  return glm::mix(centroid, rim, std::sqrt(ring));
+}
+
+}  // namespace
+
+LinkMaker::LinkMaker(const ShootingTree& tree, const LinkAccuracy& accuracy, std::pmr::memory_resource* memory)
+    : tree_(tree),
+      accuracy_(accuracy),
+      pending_(memory),
+      candidates_(memory),
+      targets_(memory),
+      weights_(memory),
+      blocked_(memory) {}
+
+void LinkMaker::make(const Receiver& receiver, std::span<const std::uint32_t> roots, Tracer& tracer,
+                     std::pmr::vector<Link>& links) {
+  for (const std::uint32_t root : roots) {
+    if (root == k_none) {
+      continue;
+    }
+    pending_.push_back(root);
+    while (!pending_.empty()) {
+      const std::uint32_t node = pending_.back();
+      pending_.pop_back();
+      open(node, receiver, tracer);
+      if (targets_.size() >= k_batch) {
+        settle(receiver, tracer, links);
+      }
+    }
+  }
+  while (!candidates_.empty() || !pending_.empty()) {
+    settle(receiver, tracer, links);
+    while (!pending_.empty()) {
+      const std::uint32_t node = pending_.back();
+      pending_.pop_back();
+      open(node, receiver, tracer);
+    }
+  }
+}
+
+// Decides how a node is seen: not at all, as a whole, as its polygon, or by its children.
+void LinkMaker::open(std::uint32_t index, const Receiver& receiver, Tracer& tracer) {
+  const TreeNode& node = tree_.nodes()[index];
+  const Vec3& x = receiver.point;
+  const Vec3& n = receiver.normal;
+  const Vec3 w = node.piece.centroid - x;
+  const double above = glm::dot(n, w);
+  if (above <= -node.radius) {
+    ++tracer.counters.skipped_facing;
+    return;
+  }
+  // A plane that the receiver lies in, or is nearer to than positions can tell, gives it nothing.
+  if (node.flat && -glm::dot(node.piece.normal, w) <= tracer.lift()) {
+    ++tracer.counters.skipped_facing;
+    return;
+  }
+  const double distance = glm::length(w);
+  const bool leaf = node.child_count == 0;
+  const bool whole = above >= node.radius;  // all of it above the horizon
+  double form_factor;
+  if (!leaf) {
+    if (!whole || distance < accuracy_.separation * node.radius) {
+      for (std::uint32_t child = node.first_child; child < node.first_child + node.child_count; ++child) {
+        pending_.push_back(child);
+      }
+      return;
+    }
+    ++tracer.counters.form_factors;
+    if (node.flat) {
+      form_factor = kernel_form_factor(x, n, node.piece);
+    } else {
+      const double projected = std::max(0.0, -glm::dot(node.area_vector, w));
+      const double square = distance * distance;
+      form_factor = above * projected / (3.14159265358979323846 * square * square);
+    }
+  } else {
+    ++tracer.counters.form_factors;
+    form_factor =
+        whole && distance >= accuracy_.leaf_separation * node.radius
+            ? kernel_form_factor(x, n, node.piece)
+            : polygon_form_factor(x, n, tree_.polygon(tree_.elements()[node.first_element]), node.piece.normal);
+  }
+  if (form_factor <= 0) {
+    return;
+  }
+  const double wanted = std::ceil(form_factor * accuracy_.rays_per_hemisphere);
+  const auto rays = static_cast<std::uint32_t>(
+      std::clamp(wanted, static_cast<double>(accuracy_.least_rays), static_cast<double>(accuracy_.most_rays)));
+  propose(index, form_factor, rays, receiver, tracer);
+}
+
+// Queues rays to points spread over the node: one in each of equal runs of its elements, or several in its one cell.
+void LinkMaker::propose(std::uint32_t index, double form_factor, std::uint32_t ray_count, const Receiver& receiver,
+                        Tracer& tracer) {
+  const TreeNode& node = tree_.nodes()[index];
+  const auto first = static_cast<std::uint32_t>(targets_.size());
+  const auto add = [&](const Vec3& point, const Vec3& normal) {
+    const double weight = kernel(receiver.point, receiver.normal, point, normal);
+    if (weight > 0) {  // points under a horizon are not blocked: they are not there
+      targets_.push_back(point + normal * tracer.lift());
+      weights_.push_back(weight);
+    }
+  };
+  if (node.element_count == 1) {
+    const auto polygon = tree_.polygon(tree_.elements()[node.first_element]);
+    for (std::uint32_t i = 0; i < ray_count; ++i) {
+      add(point_of_cell(polygon, node.piece.centroid, i, ray_count), node.piece.normal);
+    }
+  } else {
+    const std::uint32_t count = std::min(ray_count, node.element_count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint32_t pick = (2 * i + 1) * node.element_count / (2 * count);
+      const TreeNode& leaf = tree_.nodes()[tree_.elements()[node.first_element + pick].node];
+      add(leaf.piece.centroid, leaf.piece.normal);
+    }
+  }
+  candidates_.push_back({index, first, static_cast<std::uint32_t>(targets_.size()) - first, form_factor});
+}
+
+// Casts the queued rays. Nodes whose rays agree become links; inner nodes that matter and are partly hidden are opened;
+// so are those of which no point was above the horizon.
+void LinkMaker::settle(const Receiver& receiver, Tracer& tracer, std::pmr::vector<Link>& links) {
+  blocked_.resize(targets_.size());
+  tracer.blocked_from(receiver.lifted, targets_, blocked_.data());
+  for (const Candidate& candidate : candidates_) {
+    double all = 0, seen = 0;
+    std::uint32_t hidden = 0;
+    for (std::uint32_t ray = candidate.first_ray; ray < candidate.first_ray + candidate.ray_count; ++ray) {
+      all += weights_[ray];
+      seen += blocked_[ray] ? 0 : weights_[ray];
+      hidden += blocked_[ray];
+    }
+    const TreeNode& node = tree_.nodes()[candidate.node];
+    const bool mixed = candidate.ray_count == 0 || (hidden != 0 && hidden != candidate.ray_count);
+    if (mixed && node.child_count > 0 && candidate.form_factor > accuracy_.splittable) {
+      for (std::uint32_t child = node.first_child; child < node.first_child + node.child_count; ++child) {
+        pending_.push_back(child);
+      }
+    } else if (seen > 0) {
+      links.push_back({candidate.node, static_cast<float>(candidate.form_factor * seen / all)});
+    }
+  }
+  candidates_.clear();
+  targets_.clear();
+  weights_.clear();
+}
+
+}  // namespace radvor

@@ -1,0 +1,59 @@
+// Links: what one receiver gets from each node that it opened, as form factor times visibility. Made once, read by
+// every bounce.
+#pragma once
+
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "radiosity/receiver.h"
+#include "radiosity/shooting_tree.h"
+#include "radiosity/tracer.h"
+
+namespace radvor {
+
+struct Link {
+  std::uint32_t node;
+  float factor;  ///< form factor times visible share
+};
+
+/// How much a link may cost and how wrong it may be.
+struct LinkAccuracy {
+  double rays_per_hemisphere = 1024;  ///< a node gets this times its form factor, within the bounds below
+  std::uint32_t least_rays = 2;       ///< for any node
+  std::uint32_t most_rays = 16;
+  double separation = 5;       ///< an inner node stands for its elements from this many radii on
+  double leaf_separation = 6;  ///< a leaf's kernel stands for its polygon from this many radii on
+  double splittable = 2e-4;    ///< an inner node of more than this form factor is opened where its rays disagree
+};
+
+/// The links of one receiver into the trees under `roots`, appended to `links`.
+class LinkMaker {
+ public:
+  LinkMaker(const ShootingTree& tree, const LinkAccuracy& accuracy, std::pmr::memory_resource* memory);
+
+  void make(const Receiver& receiver, std::span<const std::uint32_t> roots, Tracer& tracer,
+            std::pmr::vector<Link>& links);
+
+ private:
+  struct Candidate {
+    std::uint32_t node;
+    std::uint32_t first_ray, ray_count;
+    double form_factor;
+  };
+
+  void open(std::uint32_t node, const Receiver& receiver, Tracer& tracer);
+  void propose(std::uint32_t node, double form_factor, std::uint32_t ray_count, const Receiver& receiver,
+               Tracer& tracer);
+  void settle(const Receiver& receiver, Tracer& tracer, std::pmr::vector<Link>& links);
+
+  const ShootingTree& tree_;
+  LinkAccuracy accuracy_;
+  std::pmr::vector<std::uint32_t> pending_;  ///< nodes to look at
+  std::pmr::vector<Candidate> candidates_;   ///< nodes that wait for their rays
+  std::pmr::vector<Vec3> targets_;
+  std::pmr::vector<double> weights_;
+  std::pmr::vector<std::uint8_t> blocked_;
+};
+
+}  // namespace radvor

@@ -1,0 +1,217 @@
+#include "radiosity/shooting_tree.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace radvor {
+
+namespace {
+
+// A node of more elements than this is split; into this many groups at most.
+constexpr std::uint32_t k_leaves = 24;
+constexpr std::uint32_t k_groups = 8;
+
+// Splits [begin, end) at the median along the longest axis of the centroids, three times over: up to 8 groups of about
+// the same size. Ties are broken by share, so the result depends on the elements alone.
+void split_into_groups(std::span<std::uint32_t> order, std::span<const PlanePiece> pieces,
+                       std::pmr::vector<std::uint32_t>& ends) {
+  struct Part {
+    std::uint32_t begin, end;
+  };
+  Part parts[k_groups] = {{0, static_cast<std::uint32_t>(order.size())}};
+  std::uint32_t count = 1;
+  while (count < k_groups) {
+    const auto largest = std::max_element(
+        parts, parts + count, [](const Part& a, const Part& b) { return a.end - a.begin < b.end - b.begin; });
+    if (largest->end - largest->begin < 2) {
+      break;
+    }
+    Vec3 low = pieces[order[largest->begin]].centroid, high = low;
+    for (std::uint32_t i = largest->begin; i < largest->end; ++i) {
+      low = glm::min(low, pieces[order[i]].centroid);
+      high = glm::max(high, pieces[order[i]].centroid);
+    }
+    const Vec3 extent = high - low;
+    const int axis = extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2) : (extent.y >= extent.z ? 1 : 2);
+    const std::uint32_t middle = (largest->begin + largest->end) / 2;
+    std::nth_element(order.begin() + largest->begin, order.begin() + middle, order.begin() + largest->end,
+                     [&](std::uint32_t a, std::uint32_t b) {
+                       const double x = pieces[a].centroid[axis], y = pieces[b].centroid[axis];
+                       return x != y ? x < y : a < b;
+                     });
+    parts[count++] = {middle, largest->end};
+    largest->end = middle;
+  }
+  std::sort(parts, parts + count, [](const Part& a, const Part& b) { return a.begin < b.begin; });
+  ends.clear();
+  for (std::uint32_t i = 0; i < count; ++i) {
+    // nth_element leaves an order that the library may choose: make it one of our own.
+    std::sort(order.begin() + parts[i].begin, order.begin() + parts[i].end);
+    ends.push_back(parts[i].end);
+  }
+}
+
+}  // namespace
+
+ShootingTree::ShootingTree(const Surface& surface, Host& host)
+    : nodes_(&host.memory), elements_(&host.memory), corners_(&host.memory), roots_(&host.memory) {
+  const auto shares = surface.shares();
+  std::pmr::memory_resource* memory = &host.memory;
+  std::pmr::vector<PlanePiece> pieces(shares.size(), memory);
+  std::pmr::vector<double> radii(shares.size(), 0.0, memory);
+  std::pmr::vector<std::uint32_t> first_corner(shares.size() + 1, 0, memory);
+
+  // Cells in parallel, by blocks of shares; then one array.
+  constexpr std::uint32_t k_block = 1024;
+  const auto share_count = static_cast<std::uint32_t>(shares.size());
+  const std::uint32_t block_count = (share_count + k_block - 1) / k_block;
+  std::pmr::vector<std::pmr::vector<Vec3>> block_corners(block_count, memory);
+  host.jobs.for_each(block_count, [&](std::uint32_t block) {
+    std::pmr::vector<Vec3> polygon(memory);
+    const std::uint32_t end = std::min(share_count, (block + 1) * k_block);
+    for (std::uint32_t s = block * k_block; s < end; ++s) {
+      const Share& share = shares[s];
+      const Frame& frame = surface.facets().facets[share.facet].frame;
+      surface.cell(s, polygon);
+      pieces[s] = share.back ? measure_polygon(polygon, frame.v, frame.u, -frame.normal)
+                             : measure_polygon(polygon, frame.u, frame.v, frame.normal);
+      pieces[s].area = share.area;
+      for (const Vec3& corner : polygon) {
+        radii[s] = std::max(radii[s], glm::length(corner - pieces[s].centroid));
+      }
+      first_corner[s + 1] = static_cast<std::uint32_t>(polygon.size());
+      block_corners[block].insert(block_corners[block].end(), polygon.begin(), polygon.end());
+    }
+  });
+  for (std::uint32_t s = 0; s < share_count; ++s) {
+    first_corner[s + 1] += first_corner[s];
+  }
+  corners_.reserve(first_corner[share_count]);
+  for (auto& block : block_corners) {
+    corners_.insert(corners_.end(), block.begin(), block.end());
+    block = std::pmr::vector<Vec3>(memory);
+  }
+
+  elements_.reserve(share_count);
+  nodes_.reserve(share_count + share_count / 4 + surface.patch_count());
+  for (std::uint32_t patch = 0; patch < surface.patch_count(); ++patch) {
+    roots_.push_back(k_none);
+    add_patch(patch, surface, pieces, radii, memory);
+  }
+  for (Element& element : elements_) {
+    element.first_corner = first_corner[element.share];
+    element.corner_count = first_corner[element.share + 1] - first_corner[element.share];
+  }
+}
+
+void ShootingTree::add_patch(std::uint32_t patch, const Surface& surface, std::span<const PlanePiece> pieces,
+                             std::span<const double> radii, std::pmr::memory_resource* memory) {
+  std::pmr::vector<std::uint32_t> order(memory);
+  for (const std::uint32_t share : surface.patch(patch)) {
+    if (pieces[share].area > 0) {
+      order.push_back(share);
+    }
+  }
+  if (order.empty()) {
+    return;
+  }
+  const auto base = static_cast<std::uint32_t>(elements_.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    elements_.push_back({});
+  }
+  const auto shares = surface.shares();
+  const auto describe = [&](std::uint32_t begin, std::uint32_t end) {
+    TreeNode node;
+    node.first_element = base + begin;
+    node.element_count = end - begin;
+    node.first_child = node.child_count = 0;
+    node.piece = pieces[order[begin]];
+    node.area_vector = node.piece.area * node.piece.normal;
+    node.flat = true;
+    Vec3 mean = node.piece.area * node.piece.centroid;
+    double area = node.piece.area;
+    for (std::uint32_t i = begin + 1; i < end; ++i) {
+      const PlanePiece& piece = pieces[order[i]];
+      node.flat = node.flat && shares[order[i]].facet == shares[order[begin]].facet &&
+                  shares[order[i]].back == shares[order[begin]].back;
+      if (node.flat) {
+        node.piece = join(node.piece, piece);
+      }
+      node.area_vector += piece.area * piece.normal;
+      mean += piece.area * piece.centroid;
+      area += piece.area;
+    }
+    if (!node.flat) {
+      node.piece = PlanePiece{};
+      node.piece.centroid = mean / area;
+      node.piece.area = area;
+      const double length = glm::length(node.area_vector);
+      node.piece.normal = length > 0 ? node.area_vector / length : pieces[order[begin]].normal;
+    }
+    node.radius = 0;
+    for (std::uint32_t i = begin; i < end; ++i) {
+      node.radius =
+          std::max(node.radius, glm::length(pieces[order[i]].centroid - node.piece.centroid) + radii[order[i]]);
+    }
+    return node;
+  };
+
+  roots_[patch] = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.push_back(describe(0, static_cast<std::uint32_t>(order.size())));
+  std::pmr::vector<std::uint32_t> ends(memory);
+  for (std::uint32_t parent = roots_[patch]; parent < nodes_.size(); ++parent) {
+    const std::uint32_t begin = nodes_[parent].first_element - base;
+    const std::uint32_t count = nodes_[parent].element_count;
+    if (count == 1) {
+      elements_[base + begin] = {order[begin], parent, 0, 0};
+      continue;
+    }
+    ends.clear();
+    if (count <= k_leaves) {
+      for (std::uint32_t i = 1; i <= count; ++i) {
+        ends.push_back(i);
+      }
+    } else {
+      split_into_groups(std::span(order).subspan(begin, count), pieces, ends);
+    }
+    nodes_[parent].first_child = static_cast<std::uint32_t>(nodes_.size());
+    nodes_[parent].child_count = static_cast<std::uint32_t>(ends.size());
+    std::uint32_t from = 0;
+    for (const std::uint32_t to : ends) {
+      nodes_.push_back(describe(begin + from, begin + to));
+      from = to;
+    }
+  }
+}
+
+void ShootingTree::pull(std::span<Color> radiosity, Host& host) const {
+  const auto patch_count = static_cast<std::uint32_t>(roots_.size());
+  constexpr std::uint32_t k_block = 64;
+  host.jobs.for_each((patch_count + k_block - 1) / k_block, [&](std::uint32_t block) {
+    const std::uint32_t end = std::min(patch_count, (block + 1) * k_block);
+    for (std::uint32_t patch = block * k_block; patch < end; ++patch) {
+      if (roots_[patch] == k_none) {
+        continue;
+      }
+      // The patch's nodes run from its root to the next patch's; children come after their parents.
+      std::uint32_t last = patch + 1;
+      while (last < patch_count && roots_[last] == k_none) {
+        ++last;
+      }
+      const std::uint32_t stop = last < patch_count ? roots_[last] : static_cast<std::uint32_t>(nodes_.size());
+      for (std::uint32_t index = stop; index-- > roots_[patch];) {
+        const TreeNode& node = nodes_[index];
+        if (node.child_count == 0) {
+          continue;
+        }
+        Color power(0.0);
+        for (std::uint32_t child = node.first_child; child < node.first_child + node.child_count; ++child) {
+          power += nodes_[child].piece.area * radiosity[child];
+        }
+        radiosity[index] = power / node.piece.area;
+      }
+    }
+  });
+}
+
+}  // namespace radvor

@@ -1,0 +1,60 @@
+// What shoots, as trees: the leaves are elements (shares: a cell with its radiosity), inner nodes stand for all the
+// elements under them, one root for each patch. After Tampieri and Lischinski, The Constant Radiosity Assumption
+// Syndrome (1991), the paper's [17].
+#pragma once
+
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "base/host.h"
+#include "base/vector.h"
+#include "radiosity/form_factor.h"
+#include "surface/surface.h"
+
+namespace radvor {
+
+struct TreeNode {
+  PlanePiece piece;  ///< of all elements; where they are not in one plane: mean centroid and normal, no moments
+  Vec3 area_vector;  ///< sum of area * normal over the elements
+  double radius;     ///< of the sphere about piece.centroid that holds all cells
+  bool flat;         ///< all elements lie in one plane, with one basis
+  std::uint32_t first_child, child_count;      ///< children are neighbours among the nodes; none: a leaf
+  std::uint32_t first_element, element_count;  ///< a range of elements
+};
+
+/// One share that shoots.
+struct Element {
+  std::uint32_t share;
+  std::uint32_t node;                        ///< its leaf
+  std::uint32_t first_corner, corner_count;  ///< its cell, into ShootingTree::corners
+};
+
+class ShootingTree {
+ public:
+  /// Measures every share's cell. Nodes come parents first.
+  ShootingTree(const Surface& surface, Host& host);
+
+  std::span<const TreeNode> nodes() const { return nodes_; }
+  std::span<const Element> elements() const { return elements_; }
+  std::span<const Vec3> polygon(const Element& element) const {
+    return std::span(corners_).subspan(element.first_corner, element.corner_count);
+  }
+  /// The root of each patch; patches without area have none (k_none).
+  std::span<const std::uint32_t> roots() const { return roots_; }
+
+  /// radiosity of each leaf in, area-weighted mean of every node out; one value a node.
+  void pull(std::span<Color> radiosity, Host& host) const;
+
+ private:
+  void add_patch(std::uint32_t patch, const Surface& surface, std::span<const PlanePiece> pieces,
+                 std::span<const double> radii, std::pmr::memory_resource* memory);
+
+  std::pmr::vector<TreeNode> nodes_;
+  std::pmr::vector<Element> elements_;
+  std::pmr::vector<Vec3> corners_;
+  std::pmr::vector<std::uint32_t> roots_;
+};
+
+}  // namespace radvor

@@ -1,0 +1,42 @@
+// Fixed, stratified points: Shirley and Chiu's concentric map from the square to the disk (A low distortion map between
+// disk and square, 1997) and bases about a direction.
+#pragma once
+
+#include <cmath>
+
+#include "base/vector.h"
+
+namespace radvor {
+
+/// (a, b) in [-1, 1]^2 to the unit disk, keeping fractions of area.
+inline Vec2 square_to_disk(double a, double b) {
+  constexpr double k_quarter_pi = 0.78539816339744831;
+  if (a == 0 && b == 0) {
+    return {0, 0};
+  }
+  const bool wide = std::abs(a) > std::abs(b);
+  const double radius = wide ? a : b;
+  const double angle = wide ? k_quarter_pi * (b / a) : 2 * k_quarter_pi - k_quarter_pi * (a / b);
+  return {radius * std::cos(angle), radius * std::sin(angle)};
+}
+
+/// Two unit vectors that make a right-handed orthonormal basis with the unit vector z.
+struct Basis {
+  Vec3 x, y, z;
+
+  explicit Basis(const Vec3& direction) : z(direction) {
+    // Duff et al., Building an orthonormal basis, revisited (2017).
+    const double sign = std::copysign(1.0, z.z);
+    const double a = -1 / (sign + z.z);
+    const double b = z.x * z.y * a;
+    x = {1 + sign * z.x * z.x * a, sign * b, -sign * z.x};
+    y = {b, sign + z.y * z.y * a, -z.y};
+  }
+
+  /// The direction whose projection along z is the point p of the unit disk: cosine-weighted for uniform p.
+  Vec3 on_hemisphere(const Vec2& p) const {
+    return p.x * x + p.y * y + std::sqrt(std::max(0.0, 1 - p.x * p.x - p.y * p.y)) * z;
+  }
+};
+
+}  // namespace radvor

@@ -1,0 +1,65 @@
+// Visibility with a count: the rays of one block of receivers, and a sample of the time they take.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <span>
+
+#include "base/vector.h"
+#include "visibility/visibility.h"
+
+namespace radvor {
+
+/// What was done and what was saved. Sums of integers, so the same for any number of threads; the time is not.
+struct TransportCounters {
+  std::uint64_t rays = 0;
+  std::uint64_t form_factors = 0;
+  std::uint64_t skipped_facing = 0;
+  std::uint64_t skipped_negligible = 0;
+  std::uint64_t skipped_clear = 0;
+  double ray_seconds = 0;  ///< CPU time, extrapolated from every 64th packet
+
+  TransportCounters& operator+=(const TransportCounters& other) {
+    rays += other.rays;
+    form_factors += other.form_factors;
+    skipped_facing += other.skipped_facing;
+    skipped_negligible += other.skipped_negligible;
+    skipped_clear += other.skipped_clear;
+    ray_seconds += other.ray_seconds;
+    return *this;
+  }
+};
+
+/// One per task; not shared between threads.
+class Tracer {
+ public:
+  explicit Tracer(const Visibility& visibility) : visibility_(visibility) {}
+
+  void blocked_from(const Vec3& from, std::span<const Vec3> to, std::uint8_t* blocked) {
+    counters.rays += to.size();
+    if (calls_++ % k_timed != 0) {
+      visibility_.blocked_from(from, to, blocked);
+      return;
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    visibility_.blocked_from(from, to, blocked);
+    counters.ray_seconds += k_timed * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+
+  FirstHit first_hit(const Vec3& from, const Vec3& direction) {
+    ++counters.rays;
+    return visibility_.first_hit(from, direction);
+  }
+
+  double lift() const { return visibility_.lift(); }
+
+  TransportCounters counters;
+
+ private:
+  static constexpr std::uint32_t k_timed = 64;
+
+  const Visibility& visibility_;
+  std::uint32_t calls_ = 0;
+};
+
+}  // namespace radvor
