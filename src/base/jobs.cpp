@@ -1,5 +1,6 @@
 #include "base/jobs.h"
 
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -14,7 +15,10 @@
 namespace radvor {
 
 struct Jobs::Arena {
-  explicit Arena(int threads) : arena(threads) {}
+  // No more than the process may have: TBB would ignore the rest, and say so on the host's stderr.
+  explicit Arena(std::size_t threads)
+      : arena(static_cast<int>(
+            std::min(threads, tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)))) {}
   tbb::task_arena arena;
 };
 
@@ -52,7 +56,7 @@ Jobs::Jobs(std::uint32_t thread_count, HostParallelFor parallel_for, void* user,
   if (!host_) {
     void* storage = memory_->allocate(sizeof(Arena), alignof(Arena));
     try {
-      arena_ = new (storage) Arena(static_cast<int>(thread_count_));
+      arena_ = new (storage) Arena(thread_count_);
     } catch (...) {
       memory_->deallocate(storage, sizeof(Arena), alignof(Arena));
       throw;
