@@ -78,14 +78,22 @@ Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tr
   std::array<Part, k_stack> stack;  // parts to be quartered
   std::size_t size = 0;
 
+  // Where all rays of a group agree, so do its parts. Otherwise every part that matters is quartered, those whose own
+  // four rays agree too: a straight edge may cut off a corner between them, the same in all parts along it.
   const auto settle = [&](std::span<const Part> parts) {
     std::array<Verdict, 4> verdicts;
     look(emitter, receiver, tracer, parts, verdicts);
+    int hidden = 0, seen = 0;
+    for (const Verdict& verdict : verdicts) {
+      hidden += verdict.hidden;
+      seen += verdict.seen;
+    }
     for (std::size_t p = 0; p < parts.size(); ++p) {
       const Verdict& verdict = verdicts[p];
-      const bool agreed = (verdict.hidden == 0) != (verdict.seen == 0);
-      if (agreed) {
-        visible += verdict.seen > 0 ? parts[p].form_factor : 0;
+      if (hidden == 0 && seen > 0) {
+        visible += parts[p].form_factor;
+      } else if (seen == 0 && hidden > 0) {
+        continue;
       } else if (parts[p].form_factor > may_stay && parts[p].depth < k_max_depth) {
         stack[size++] = parts[p];
       } else if (verdict.kernel_all > 0) {

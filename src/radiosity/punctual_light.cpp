@@ -12,46 +12,52 @@ namespace {
 
 // The mean over a disk of directions about `axis` (radius sin_radius, in projection along the axis) of
 // max(0, n . w) / (axis . w) * visible(w): what a uniform disk delivers relative to its irradiance on a facing surface.
-// 16 strata first; where they disagree, 256.
+// 16 points and 8 of the rim first; where they disagree, 256.
 double visible_cosine_of_disk(const Receiver& receiver, const Vec3& axis, double sin_radius, double distance,
                               double source_radius, Tracer& tracer) {
   const Basis basis(axis);
-  const auto sample = [&](int side, bool& mixed) {
+  const auto sample = [&](int points, int rim, bool& mixed) {
     std::array<Vec3, 256> targets;
     std::array<double, 256> weights;
     std::array<std::uint8_t, 256> blocked;
     std::size_t count = 0;
-    for (int i = 0; i < side; ++i) {
-      for (int j = 0; j < side; ++j) {
-        const Vec2 p = sin_radius * square_to_disk((2 * i + 1.0) / side - 1, (2 * j + 1.0) / side - 1);
-        const Vec3 direction = basis.on_hemisphere(p);
-        const double cosine = glm::dot(receiver.normal, direction);
-        if (cosine <= 0) {
-          continue;  // under the horizon: not blocked, not there
-        }
-        const double along = glm::dot(direction, axis);
-        // To the near side of the luminous sphere; for a sun, out of the scene.
-        const double reach =
-            distance * along -
-            std::sqrt(std::max(0.0, source_radius * source_radius - distance * distance * (1 - along * along)));
-        targets[count] = receiver.lifted + direction * reach;
-        weights[count] = cosine / along;
-        ++count;
+    const auto add = [&](const Vec2& p, double share) {
+      const Vec3 direction = basis.on_hemisphere(sin_radius * p);
+      const double cosine = glm::dot(receiver.normal, direction);
+      if (cosine <= 0) {
+        return;  // under the horizon: not blocked, not there
       }
+      const double along = glm::dot(direction, axis);
+      // To the near side of the luminous sphere; for a sun, out of the scene.
+      const double reach =
+          distance * along -
+          std::sqrt(std::max(0.0, source_radius * source_radius - distance * distance * (1 - along * along)));
+      targets[count] = receiver.lifted + direction * reach;
+      weights[count++] = share * cosine / along;
+    };
+    for (int i = 0; i < points; ++i) {
+      add(sunflower(i, points), 1.0 / points);
+    }
+    for (int i = 0; i < rim; ++i) {
+      const double angle = (i + 0.5) * 6.283185307179586 / rim;
+      add({0.99 * std::cos(angle), 0.99 * std::sin(angle)}, 0);
     }
     tracer.blocked_from(receiver.lifted, std::span(targets.data(), count), blocked.data());
-    double sum = 0;
+    double all = 0, seen = 0;
     std::size_t hidden = 0;
     for (std::size_t k = 0; k < count; ++k) {
       hidden += blocked[k];
-      sum += blocked[k] ? 0 : weights[k];
+      all += weights[k];
+      seen += blocked[k] ? 0 : weights[k];
     }
     mixed = hidden != 0 && hidden != count;
-    return sum / (side * side);
+    // Wholly above the horizon the disk's mean is that of its centre, exactly: the points only say what is seen of it.
+    const double cosine = glm::dot(receiver.normal, axis);
+    return cosine >= sin_radius && all > 0 ? cosine * seen / all : seen;
   };
   bool mixed = false;
-  const double coarse = sample(4, mixed);
-  return mixed ? sample(16, mixed) : coarse;
+  const double coarse = sample(16, 8, mixed);
+  return mixed ? sample(256, 0, mixed) : coarse;
 }
 
 double visible_cosine(const Receiver& receiver, const Vec3& axis, double sin_radius, double distance,

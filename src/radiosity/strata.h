@@ -2,6 +2,7 @@
 // disk and square, 1997) and bases about a direction.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/vector.h"
@@ -18,6 +19,14 @@ inline Vec2 square_to_disk(double a, double b) {
   const double radius = wide ? a : b;
   const double angle = wide ? k_quarter_pi * (b / a) : 2 * k_quarter_pi - k_quarter_pi * (a / b);
   return {radius * std::cos(angle), radius * std::sin(angle)};
+}
+
+/// Point i of n of the unit disk in Vogel's spiral (1979): equal shares of area, and no direction in which a straight
+/// shadow edge could run along rows of points.
+inline Vec2 sunflower(int i, int n) {
+  constexpr double k_golden_angle = 2.3999632297286533;
+  const double radius = std::sqrt((i + 0.5) / n);
+  return {radius * std::cos(i * k_golden_angle), radius * std::sin(i * k_golden_angle)};
 }
 
 /// Two unit vectors that make a right-handed orthonormal basis with the unit vector z.

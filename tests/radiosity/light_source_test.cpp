@@ -1,0 +1,214 @@
+// Light sources against closed forms, most of them those of CIE 171:2006.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "plates.h"
+#include "radiosity/emitter.h"
+#include "radiosity/punctual_light.h"
+#include "radiosity/sky.h"
+
+namespace radvor {
+namespace {
+
+constexpr double k_pi = 3.14159265358979323846;
+
+double shine(const Light& light, const Receiver& receiver, const Visibility& visibility) {
+  Tracer tracer(visibility);
+  return irradiance_of_punctual_light(light, receiver, tracer, 1000).r;
+}
+
+// Two triangles that make up the quadrilateral a, b, c, d and emit radiosity 1.
+std::vector<Emitter> square_emitter(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  std::vector<Emitter> emitters;
+  for (const auto& corners : {std::array<Vec3, 3>{a, b, c}, std::array<Vec3, 3>{a, c, d}}) {
+    const Vec3 twice = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    emitters.push_back({corners, glm::normalize(twice), Color(1.0), 0.5 * glm::length(twice)});
+  }
+  return emitters;
+}
+
+double glow(const std::vector<Emitter>& emitters, const Receiver& receiver, const Visibility& visibility,
+            const EmitterAccuracy& accuracy) {
+  Tracer tracer(visibility);
+  double sum = 0;
+  for (const Emitter& emitter : emitters) {
+    sum += irradiance_of_emitter(emitter, receiver, tracer, accuracy).r;
+  }
+  return sum;
+}
+
+TEST(PointLight, IsotropicOfCie171Case52) {
+  // 10000 lm at height 3; intensity = flux / (4 pi). Points and values of the closed form E = I h / d^3.
+  const auto open = Plates{}.visibility();
+  Light light;
+  light.type = LightType::point;
+  light.position = {0, 0, 3};
+  light.color = Color(10000 / (4 * k_pi));
+  const double at[10][2] = {{0, 0},  {.5, 0},   {1, 0}, {1.5, 0}, {.5, .5},
+                            {1, .5}, {1.5, .5}, {1, 1}, {1.5, 1}, {1.5, 1.5}};
+  const double exact[10] = {88.419413, 84.859172, 75.493818, 63.267782, 81.531603,
+                            72.74876,  61.215955, 65.436847, 55.68103,  48.129432};
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_NEAR(shine(light, receiver_at({at[i][0], at[i][1], 0}, {0, 0, 1}, open), open), exact[i], 1e-5);
+  }
+  EXPECT_EQ(shine(light, receiver_at({0, 0, 0}, {0, 0, -1}, open), open), 0);
+}
+
+TEST(PointLight, LuminousSphereGivesWhatItsCentreWould) {
+  // A uniform sphere wholly above the horizon: exactly I cos / d^2, at any distance outside of it.
+  const auto open = Plates{}.visibility();
+  Light light;
+  light.type = LightType::point;
+  light.position = {0, 1, 2};
+  light.color = Color(7.0);
+  const Receiver receiver = receiver_at({0.5, 0, 0}, {0, 0, 1}, open);
+  const double as_point = shine(light, receiver, open);
+  for (double radius : {1e-3, 0.3, 1.0, 1.9}) {
+    light.radius = radius;
+    EXPECT_NEAR(shine(light, receiver, open), as_point, 2e-3 * as_point) << radius;
+  }
+}
+
+TEST(DirectionalLight, CosineLawAndHardShadow) {
+  Plates plates;
+  plates.add({0, -5, 1}, {5, -5, 1}, {5, 5, 1}, {0, 5, 1});
+  const auto visibility = plates.visibility();
+  Light sun;
+  sun.type = LightType::directional;
+  sun.direction = {0.6, 0, -0.8};
+  sun.color = Color(3.0);
+  // The shadow's edge lies where the ray through the plate's edge x = 0, z = 1 meets the floor: x = 0.75.
+  EXPECT_NEAR(shine(sun, receiver_at({0.75 - 1e-3, 0, 0}, {0, 0, 1}, visibility), visibility), 3 * 0.8, 1e-12);
+  EXPECT_EQ(shine(sun, receiver_at({0.75 + 1e-3, 0, 0}, {0, 0, 1}, visibility), visibility), 0);
+}
+
+TEST(DirectionalLight, SunDiscCutByAStraightEdge) {
+  // Uniform disc cut at signed distance u (radii) from its centre: visible = (acos u - u sqrt(1 - u^2)) / pi.
+  const double angle = 0.02;
+  Plates plates;
+  plates.add({0, -500, 1}, {500, -500, 1}, {500, 500, 1}, {0, 500, 1});
+  const auto visibility = plates.visibility();
+  Light sun;
+  sun.type = LightType::directional;
+  sun.direction = {0, 0, -1};
+  sun.color = Color(1.0);
+  sun.angle = angle;
+  for (double u : {-1.1, -0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75, 1.1}) {
+    const double inside = std::clamp(u, -1.0, 1.0);
+    const double exact = (std::acos(inside) - inside * std::sqrt(1 - inside * inside)) / k_pi;
+    const Receiver receiver = receiver_at({u * std::tan(angle / 2), 0, 0}, {0, 0, 1}, visibility);
+    EXPECT_NEAR(shine(sun, receiver, visibility), exact, 0.01) << u;
+  }
+}
+
+TEST(SpotLight, FallsOffAsKhrLightsPunctual) {
+  const auto open = Plates{}.visibility();
+  Light spot;
+  spot.type = LightType::spot;
+  spot.position = {0, 0, 2};
+  spot.direction = {0, 0, -1};
+  spot.color = Color(5.0);
+  spot.inner_angle = 0.3;
+  spot.outer_angle = 0.7;
+  for (double angle : {0.0, 0.2, 0.3, 0.5, 0.69, 0.71, 1.0}) {
+    const Vec3 x(2 * std::tan(angle), 0, 0);
+    const double distance = 2 / std::cos(angle);
+    double ramp = (std::cos(angle) - std::cos(0.7)) / (std::cos(0.3) - std::cos(0.7));
+    ramp = std::clamp(ramp, 0.0, 1.0);
+    EXPECT_NEAR(shine(spot, receiver_at(x, {0, 0, 1}, open), open),
+                5 * ramp * ramp * std::cos(angle) / (distance * distance), 1e-12);
+  }
+}
+
+TEST(Emitter, HalfPlanePenumbra) {
+  // 1 x 1 square at z = 2 facing down over an opaque half-plane z = 1, x < 0; receivers at z = 0. Closed form: the
+  // square is cut by the line that the half-plane's edge projects onto its plane, and the rest is a rectangle.
+  Plates plates;
+  plates.add({-100, -100, 1}, {0, -100, 1}, {0, 100, 1}, {-100, 100, 1});
+  const auto visibility = plates.visibility();
+  const auto emitters = square_emitter({-.5, -.5, 2}, {-.5, .5, 2}, {.5, .5, 2}, {.5, -.5, 2});
+  const double at[] = {-0.75, -0.5, -0.375, -0.25, -0.125, 0, 0.125, 0.25, 0.375, 0.5, 0.75, 1, 1.5};
+  const double exact[] = {0,        0,        0.007078, 0.015898, 0.026048, 0.036739, 0.046942,
+                          0.055656, 0.062167, 0.066183, 0.058406, 0.049522, 0.032663};
+  EmitterAccuracy accuracy;
+  accuracy.mean_irradiance = 0.04;
+  accuracy.tolerance = 0.01;
+  for (std::size_t i = 0; i < std::size(at); ++i) {
+    // Off the lines that strata and shadow's edge would share.
+    EXPECT_NEAR(glow(emitters, receiver_at({at[i], 1e-4, 0}, {0, 0, 1}, visibility), visibility, accuracy), exact[i],
+                0.01 * 0.0367)
+        << at[i];
+  }
+}
+
+TEST(Emitter, ObstructedSquaresAreaMean) {
+  // Unit squares z = 0 and 1 with a black plate of half their size between; area-mean form factors, closed forms.
+  const double heights[] = {1.0 / 3, 0.4, 0.5};
+  const double exact[] = {0.10635096, 0.10190811, 0.09950629};
+  for (int i = 0; i < 3; ++i) {
+    Plates plates;
+    const double h = heights[i];
+    plates.add({.25, .25, h}, {.75, .25, h}, {.75, .75, h}, {.25, .75, h});
+    const auto visibility = plates.visibility();
+    const auto emitters = square_emitter({0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1});
+    EmitterAccuracy accuracy;
+    accuracy.mean_irradiance = 0.1;
+    double mean = 0;
+    const int side = 40;
+    for (int a = 0; a < side; ++a) {
+      for (int b = 0; b < side; ++b) {
+        const Vec3 x((a + 0.5) / side, (b + 0.5) / side, 0);
+        mean += glow(emitters, receiver_at(x, {0, 0, 1}, visibility), visibility, accuracy) / (side * side);
+      }
+    }
+    EXPECT_NEAR(mean / exact[i], 1, 2e-3) << h;
+  }
+}
+
+TEST(Emitter, UnoccludedIsExactAndCutByTheHorizon) {
+  const auto open = Plates{}.visibility();
+  // CIE 171:2006, 5.6: a 4 x 4 patch on the floor as seen from a wall, half of it under the horizon of none.
+  const auto patch = square_emitter({0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0});
+  EXPECT_NEAR(100 * glow(patch, receiver_at({2, 0, 0.25}, {0, 1, 0}, open), open, {}), 45.122604, 1e-5);
+  // A wall through the receiver's horizon: only what is above counts, and the points below are not "blocked".
+  const auto wall = square_emitter({1, -1, -1}, {1, -1, 1}, {1, 1, 1}, {1, 1, -1});
+  const auto upper = square_emitter({1, -1, 0}, {1, -1, 1}, {1, 1, 1}, {1, 1, 0});
+  const Receiver floor = receiver_at({0, 0, 0}, {0, 0, 1}, open);
+  EXPECT_NEAR(glow(wall, floor, open, {}), glow(upper, floor, open, {}), 1e-12);
+}
+
+TEST(Sky, RoofOpeningOfCie171Case59) {
+  // Room 4 x 4 x 3 m, black, the whole roof open to a uniform sky: 100 E / E_out = 100 F of the opening.
+  Plates room;
+  room.add({0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0});
+  room.add({0, 0, 0}, {0, 0, 3}, {4, 0, 3}, {4, 0, 0});
+  room.add({0, 4, 0}, {4, 4, 0}, {4, 4, 3}, {0, 4, 3});
+  room.add({0, 0, 0}, {0, 4, 0}, {0, 4, 3}, {0, 0, 3});
+  room.add({4, 0, 0}, {4, 0, 3}, {4, 4, 3}, {4, 4, 0});
+  const auto visibility = room.visibility();
+  const Sky sky(0.02, std::pmr::get_default_resource());
+  Tracer tracer(visibility);
+  const double wall[] = {45.122604, 35.900505, 27.991624, 21.638511, 16.716315, 12.967372};
+  for (int i = 0; i < 6; ++i) {
+    const Receiver receiver = receiver_at({2, 0, 2.75 - 0.5 * i}, {0, 1, 0}, visibility);
+    // The tables go from the top: A is 0.25 below the opening.
+    EXPECT_NEAR(100 * sky.open_share(receiver, tracer, 100), wall[i], 0.01 * wall[i]) << i;
+  }
+  const double floor[] = {26.795188, 30.938711, 33.975719, 35.566592};
+  for (int i = 0; i < 4; ++i) {
+    const Receiver receiver = receiver_at({2, 0.25 + 0.5 * i, 0}, {0, 0, 1}, visibility);
+    EXPECT_NEAR(100 * sky.open_share(receiver, tracer, 100), floor[i], 0.01 * floor[i]) << i;
+  }
+}
+
+TEST(Sky, OpenPlainSeesAllOfIt) {
+  const auto open = Plates{}.visibility();
+  const Sky sky(0.02, std::pmr::get_default_resource());
+  Tracer tracer(open);
+  EXPECT_EQ(sky.open_share(receiver_at({0, 0, 0}, {0, 0.6, 0.8}, open), tracer, 100), 1);
+}
+
+}  // namespace
+}  // namespace radvor
