@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/position_welding.h"
-
 namespace radvor {
 namespace {
 
@@ -77,9 +75,10 @@ EdgeChains::EdgeChains(const Tolerance& tolerance, std::pmr::memory_resource* me
       memory_(memory),
       segments_(memory),
       table_(tolerance.positions.size() * 3, memory),  // Euler: about three edges a vertex
+      inside_(memory),
       children_(memory),
       apexes_(memory),
-      tree_vertex_(memory),
+      tree_vertices_(memory),
       in_tree_(tolerance.positions.size(), false, memory),
       stack_(memory) {
   segments_.reserve(tolerance.positions.size() * 3);
@@ -111,134 +110,166 @@ void EdgeChains::add_triangle(const std::array<std::uint32_t, 3>& vertices, int 
     const std::uint32_t segment = segment_between(from, to);
     const std::uint32_t opposite = vertices[static_cast<std::size_t>(i)];
     if (i == apex) {
-      apexes_.push_back({segment, opposite, parameter(segments_[segment], opposite)});
+      apexes_.push_back({segment, {opposite, parameter(segments_[segment], opposite)}});
     }
     if (!in_tree_[opposite]) {
       in_tree_[opposite] = true;
-      tree_vertex_.push_back(opposite);
+      tree_vertices_.push_back(opposite);
     }
   }
 }
 
-bool EdgeChains::is_smaller(const Segment& a, const Segment& b) const {
-  return longer(tolerance_, {b.a, b.b}, {a.a, a.b});
+void EdgeChains::plant_tree() {
+  std::pmr::vector<Box> boxes(tree_vertices_.size(), memory_);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const std::uint32_t vertex = tree_vertices_[i];
+    // Grown so that, with the margin of a probe, the sum is no less than the tolerance of the three together.
+    const double share = touching_distance(tolerance_.precision[vertex], tolerance_.weld_distance);
+    boxes[i].add(tolerance_.positions[vertex] - share);
+    boxes[i].add(tolerance_.positions[vertex] + share);
+  }
+  tree_.emplace(boxes, memory_);
 }
 
-void EdgeChains::find_inside(const BoxTree& tree, std::uint32_t index, std::pmr::vector<Inside>& found) const {
+void EdgeChains::find_inside(std::uint32_t index, std::pmr::vector<Found>& found) const {
   const Segment& segment = segments_[index];
   const Vec3& a = tolerance_.positions[segment.a];
   const Vec3 side = tolerance_.positions[segment.b] - a;
   const double side_length = length(side);
-  // Boxes are grown by their vertex's share of the tolerance already: the rest is that of the ends.
-  const SegmentProbe probe(a, a + side, tolerance_.touching(segment.a, segment.b, segment.a));
-  tree.walk([&](const Box& box) { return probe.touches(box); },
-            [&](std::uint32_t item) {
-              const std::uint32_t vertex = tree_vertex_[item];
-              if (vertex == segment.a || vertex == segment.b) {
-                return;
-              }
-              const double touching = tolerance_.touching(segment.a, segment.b, vertex);
-              const double along = parameter(segment, vertex);
-              const Vec3 off = tolerance_.positions[vertex] - (a + along * side);
-              // A vertex that nearly coincides with an end is that end's twin, not inside.
-              const double to_end = std::min(along, 1 - along) * side_length;
-              if (to_end > 2 * touching && squared_length(off) <= touching * touching) {
-                found.push_back({index, vertex, along});
-              }
-            });
+  const double ends = tolerance_.precision[segment.a] + tolerance_.precision[segment.b];
+  const SegmentProbe probe(a, a + side, touching_distance(ends, 0));
+  tree_->walk([&](const Box& box) { return probe.touches(box); },
+              [&](std::uint32_t item) {
+                const std::uint32_t vertex = tree_vertices_[item];
+                if (vertex == segment.a || vertex == segment.b) {
+                  return;
+                }
+                const double touching = tolerance_.touching(segment.a, segment.b, vertex);
+                const double along = parameter(segment, vertex);
+                const Vec3 off = tolerance_.positions[vertex] - (a + along * side);
+                // A vertex that nearly coincides with an end is that end's twin, not inside.
+                const double to_end = std::min(along, 1 - along) * side_length;
+                if (to_end > 2 * touching && squared_length(off) <= touching * touching) {
+                  found.push_back({index, {vertex, along}});
+                }
+              });
+}
+
+// Of one segment, in no order and perhaps twice.
+void EdgeChains::lay_inside(std::span<Found> found) {
+  const auto& positions = tolerance_.positions;
+  std::sort(found.begin(), found.end(), [&](const Found& a, const Found& b) {
+    return a.inside.along != b.inside.along ? a.inside.along < b.inside.along
+                                            : a.inside.vertex != b.inside.vertex &&
+                                                  lies_before(positions[a.inside.vertex], positions[b.inside.vertex]);
+  });
+  Segment& segment = segments_[found.front().segment];
+  segment.first_inside = static_cast<std::uint32_t>(inside_.size());
+  for (const Found& one : found) {
+    if (segment.inside_count == 0 || inside_.back().vertex != one.inside.vertex) {
+      inside_.push_back(one.inside);
+      ++segment.inside_count;
+    }
+  }
+}
+
+bool EdgeChains::is_smaller(std::uint32_t from, std::uint32_t to, const Segment& than) const {
+  return longer(tolerance_, {than.a, than.b}, {from, to});
 }
 
 // Replaces one segment by those between the vertices inside it. Each must be smaller, or splitting need not end: where
 // rounding makes one longer (two twins across a segment hardly longer than the tolerance) the segment stays whole.
-void EdgeChains::divide(std::span<Inside> inside) {
-  const std::uint32_t parent = inside.front().segment;
-  std::sort(inside.begin(), inside.end(), [&](const Inside& a, const Inside& b) {
-    return a.along != b.along ? a.along < b.along
-                              : lies_before(tolerance_.positions[a.vertex], tolerance_.positions[b.vertex]);
-  });
-  const auto end =
-      std::unique(inside.begin(), inside.end(), [](const Inside& a, const Inside& b) { return a.vertex == b.vertex; });
-  const auto for_each_part = [&](auto&& function) {
-    std::uint32_t from = segments_[parent].a;
-    for (auto i = inside.begin(); i != end; ++i) {
-      function(from, i->vertex);
-      from = i->vertex;
-    }
-    function(from, segments_[parent].b);
-  };
-  bool all_smaller = true;
-  for_each_part([&](std::uint32_t from, std::uint32_t to) {
-    all_smaller = all_smaller && is_smaller({from, to}, segments_[parent]);
-  });
-  if (!all_smaller) {
+void EdgeChains::divide(std::uint32_t index) {
+  const Segment parent = segments_[index];
+  if (parent.inside_count == 0) {
     return;
   }
-  segments_[parent].first_child = static_cast<std::uint32_t>(children_.size());
+  const auto for_each_part = [&](auto&& function) {
+    std::uint32_t from = parent.a;
+    for (std::uint32_t i = 0; i < parent.inside_count; ++i) {
+      const std::uint32_t to = inside_[parent.first_inside + i].vertex;
+      function(from, to);
+      from = to;
+    }
+    function(from, parent.b);
+  };
+  bool all_smaller = true;
+  for_each_part(
+      [&](std::uint32_t from, std::uint32_t to) { all_smaller = all_smaller && is_smaller(from, to, parent); });
+  if (!all_smaller) {
+    segments_[index].inside_count = 0;
+    return;
+  }
+  segments_[index].first_child = static_cast<std::uint32_t>(children_.size());
   for_each_part([&](std::uint32_t from, std::uint32_t to) { children_.push_back(segment_between(from, to)); });
-  segments_[parent].child_count = static_cast<std::uint32_t>(children_.size()) - segments_[parent].first_child;
 }
 
 void EdgeChains::split(const Jobs& jobs) {
   constexpr std::uint32_t k_chunk = 4096;
-  std::pmr::vector<Box> boxes(tree_vertex_.size(), memory_);
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const std::uint32_t vertex = tree_vertex_[i];
-    // Grown so that, with the margin of a probe, the sum is no less than the tolerance of the three together.
-    const double share = tolerance_.touching(vertex, vertex, vertex);
-    boxes[i].add(tolerance_.positions[vertex] - share);
-    boxes[i].add(tolerance_.positions[vertex] + share);
+  if (!tree_) {
+    plant_tree();
   }
-  const BoxTree tree(boxes, memory_);
-
-  std::pmr::vector<std::pmr::vector<Inside>> found(memory_);
-  std::pmr::vector<Inside> inside(memory_);
-  for (std::uint32_t begin = 0; begin < segment_count();) {
+  std::pmr::vector<std::pmr::vector<Found>> found_by_chunk(memory_);
+  std::pmr::vector<Found> found(memory_);
+  while (searched_ < segment_count()) {
+    const std::uint32_t begin = searched_;
     const std::uint32_t end = segment_count();
-    found.resize((end - begin + k_chunk - 1) / k_chunk);
-    jobs.for_each(static_cast<std::uint32_t>(found.size()), [&](std::uint32_t chunk) {
-      found[chunk].clear();
+    found_by_chunk.resize((end - begin + k_chunk - 1) / k_chunk);
+    jobs.for_each(static_cast<std::uint32_t>(found_by_chunk.size()), [&](std::uint32_t chunk) {
+      found_by_chunk[chunk].clear();
       const std::uint32_t first = begin + chunk * k_chunk;
       for (std::uint32_t i = first; i < std::min(end, first + k_chunk); ++i) {
-        find_inside(tree, i, found[chunk]);
+        find_inside(i, found_by_chunk[chunk]);
       }
     });
-    inside.assign(apexes_.begin(), apexes_.end());
+    found.assign(apexes_.begin(), apexes_.end());
     apexes_.clear();  // all belong to the segments of the first round
-    for (const auto& part : found) {
-      inside.insert(inside.end(), part.begin(), part.end());
+    for (const auto& part : found_by_chunk) {
+      found.insert(found.end(), part.begin(), part.end());
     }
-    std::stable_sort(inside.begin(), inside.end(),
-                     [](const Inside& a, const Inside& b) { return a.segment < b.segment; });
-    for (std::size_t i = 0; i < inside.size();) {
+    std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.segment < b.segment; });
+    for (std::size_t i = 0; i < found.size();) {
       std::size_t j = i + 1;
-      while (j < inside.size() && inside[j].segment == inside[i].segment) {
+      while (j < found.size() && found[j].segment == found[i].segment) {
         ++j;
       }
-      divide(std::span(inside).subspan(i, j - i));
+      lay_inside(std::span(found).subspan(i, j - i));
+      divide(found[i].segment);
       i = j;
     }
-    begin = end;
+    searched_ = end;
+  }
+}
+
+void EdgeChains::refuse(std::uint32_t index, std::uint32_t vertex) {
+  Segment& segment = segments_[index];
+  const auto begin = inside_.begin() + segment.first_inside;
+  const auto end = begin + segment.inside_count;
+  const auto gone = std::remove_if(begin, end, [&](const Inside& inside) { return inside.vertex == vertex; });
+  if (gone != end) {
+    segment.inside_count = static_cast<std::uint32_t>(gone - begin);
+    divide(index);
   }
 }
 
 void EdgeChains::chain(std::uint32_t from, std::uint32_t to, std::pmr::vector<Link>& links) {
-  stack_.assign(1, {from, to, segment_between(from, to)});
+  const std::uint32_t whole = segment_between(from, to);
+  stack_.assign(1, {from, to, whole, whole});
   while (!stack_.empty()) {
     const Link link = stack_.back();
     stack_.pop_back();
     const Segment& segment = segments_[link.segment];
-    if (segment.child_count == 0) {
+    if (segment.inside_count == 0) {
       links.push_back(link);
       continue;
     }
     // The last part is pushed first.
     const bool forward = link.from == segment.a;
     std::uint32_t end = link.to;
-    for (std::uint32_t i = 0; i < segment.child_count; ++i) {
-      const std::uint32_t offset = forward ? segment.child_count - 1 - i : i;
-      const std::uint32_t child = children_[segment.first_child + offset];
+    for (std::uint32_t i = 0; i <= segment.inside_count; ++i) {
+      const std::uint32_t child = children_[segment.first_child + (forward ? segment.inside_count - i : i)];
       const std::uint32_t start = segments_[child].a == end ? segments_[child].b : segments_[child].a;
-      stack_.push_back({start, end, child});
+      stack_.push_back({start, end, child, start == link.from ? link.parent : link.segment});
       end = start;
     }
   }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory_resource>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "base/vector.h"
 #include "scene/box_tree.h"
 #include "scene/index_table.h"
+#include "scene/position_welding.h"
 
 namespace radvor {
 
@@ -21,13 +23,8 @@ struct Tolerance {
   std::span<const double> precision;  ///< per vertex, of its position
   double weld_distance;               ///< what is closer than this touches anyway
 
-  /// A triangle no higher than this over its longest side has no plane: rounding may tilt it by ten degrees. A vertex
-  /// no farther than this from a segment lies on it. One bound for both, so that dropping a sliver leaves a T-junction
-  /// where the sliver's apex lies on its longest side, and never a crack.
   double touching(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-    constexpr double k_roundings = 4;  // three exact corners take 1; the rest is for tools that compute in float
-    const double bound = k_roundings * (precision[a] + precision[b] + precision[c]);
-    return bound > weld_distance ? bound : weld_distance;
+    return touching_distance(precision[a] + precision[b] + precision[c], weld_distance);
   }
 };
 
@@ -49,38 +46,52 @@ class EdgeChains {
   struct Link {
     std::uint32_t from, to;
     std::uint32_t segment;  ///< the same for all links between these two vertices
+    std::uint32_t parent;   ///< the segment whose division put `from` there; its own where it is the corner
   };
   /// Appends the edges that make up the segment of an added triangle, in order.
   void chain(std::uint32_t from, std::uint32_t to, std::pmr::vector<Link>& links);
 
+  /// Takes back that a vertex lies inside a segment: a triangle's outline would touch itself there. After all refusals
+  /// split() must run again.
+  void refuse(std::uint32_t segment, std::uint32_t vertex);
+
   std::uint32_t segment_count() const { return static_cast<std::uint32_t>(segments_.size()); }
 
  private:
-  struct Segment {
-    std::uint32_t a, b;  ///< a < b
-    std::uint32_t first_child = 0;
-    std::uint32_t child_count = 0;  ///< 0: has no vertex inside
-  };
   struct Inside {
-    std::uint32_t segment;
     std::uint32_t vertex;
     double along;  ///< 0 at a, 1 at b
+  };
+  struct Segment {
+    std::uint32_t a, b;              ///< a < b
+    std::uint32_t first_inside = 0;  ///< into inside_, from a to b
+    std::uint32_t inside_count = 0;
+    std::uint32_t first_child = 0;  ///< into children_, one more than vertices inside
+  };
+  struct Found {
+    std::uint32_t segment;
+    Inside inside;
   };
 
   std::uint32_t segment_between(std::uint32_t a, std::uint32_t b);
   double parameter(const Segment& segment, std::uint32_t vertex) const;
-  bool is_smaller(const Segment& a, const Segment& b) const;
-  void find_inside(const BoxTree& tree, std::uint32_t segment, std::pmr::vector<Inside>& found) const;
-  void divide(std::span<Inside> inside);
+  bool is_smaller(std::uint32_t from, std::uint32_t to, const Segment& than) const;
+  void plant_tree();
+  void find_inside(std::uint32_t segment, std::pmr::vector<Found>& found) const;
+  void lay_inside(std::span<Found> found);
+  void divide(std::uint32_t segment);
 
   Tolerance tolerance_;
   std::pmr::memory_resource* memory_;
   std::pmr::vector<Segment> segments_;
   IndexTable table_;
-  std::pmr::vector<std::uint32_t> children_;     ///< segments, from a to b
-  std::pmr::vector<Inside> apexes_;              ///< of dropped slivers
-  std::pmr::vector<std::uint32_t> tree_vertex_;  ///< the vertices of triangles
+  std::pmr::vector<Inside> inside_;
+  std::pmr::vector<std::uint32_t> children_;       ///< segments
+  std::pmr::vector<Found> apexes_;                 ///< of dropped slivers
+  std::pmr::vector<std::uint32_t> tree_vertices_;  ///< the vertices of triangles
   std::pmr::vector<bool> in_tree_;
+  std::optional<BoxTree> tree_;
+  std::uint32_t searched_ = 0;  ///< segments before this one know what lies inside
   std::pmr::vector<Link> stack_;
 };
 

@@ -56,27 +56,9 @@ WeldedPositions weld_equal(const Scene& scene, std::pmr::memory_resource* memory
   return result;
 }
 
-void weld_near(WeldedPositions& welded, double distance, std::pmr::memory_resource* memory) {
+// Makes each set one point. Its smallest member comes first: it takes the next number, then gathers from the others.
+void merge(WeldedPositions& welded, DisjointSets& sets, std::pmr::memory_resource* memory) {
   const auto count = static_cast<std::uint32_t>(welded.positions.size());
-  std::pmr::vector<Box> boxes(count, memory);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    boxes[i].add(welded.positions[i]);
-  }
-  const BoxTree tree(boxes, memory);
-  DisjointSets sets(count, memory);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const Vec3& p = welded.positions[i];
-    const double squared = distance * distance;
-    tree.walk([&](const Box& box) { return box.squared_distance(p) <= squared; },
-              [&](std::uint32_t other) {
-                const Vec3 apart = welded.positions[other] - p;
-                if (other > i && dot(apart, apart) <= squared) {
-                  sets.unite(i, other);
-                }
-              });
-  }
-
-  // A set's smallest member comes first: it takes the next number, then gathers from the others.
   std::pmr::vector<std::uint32_t> renumbered(count, memory);
   std::uint32_t kept = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -105,12 +87,62 @@ void weld_near(WeldedPositions& welded, double distance, std::pmr::memory_resour
   }
 }
 
+void weld_near(WeldedPositions& welded, double distance, std::pmr::memory_resource* memory) {
+  const auto count = static_cast<std::uint32_t>(welded.positions.size());
+  std::pmr::vector<Box> boxes(count, memory);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    boxes[i].add(welded.positions[i]);
+  }
+  const BoxTree tree(boxes, memory);
+  DisjointSets sets(count, memory);
+  const double squared = distance * distance;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Vec3& p = welded.positions[i];
+    tree.walk([&](const Box& box) { return box.squared_distance(p) <= squared; },
+              [&](std::uint32_t other) {
+                const Vec3 apart = welded.positions[other] - p;
+                if (other > i && dot(apart, apart) <= squared) {
+                  sets.unite(i, other);
+                }
+              });
+  }
+  merge(welded, sets, memory);
+}
+
+// Whether there were any. Merging moves points, which may shorten other sides.
+bool weld_short_sides(const Scene& scene, WeldedPositions& welded, std::pmr::memory_resource* memory) {
+  std::pmr::vector<std::pair<std::uint32_t, std::uint32_t>> sides(memory);
+  for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+    const auto& indices = scene.meshes[m].indices;
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+      const std::uint32_t a = welded.vertex_of[m][indices[i]];
+      const std::uint32_t b = welded.vertex_of[m][indices[i % 3 == 2 ? i - 2 : i + 1]];
+      const Vec3 side = welded.positions[b] - welded.positions[a];
+      const double touching = touching_distance(welded.precision[a] + welded.precision[b], 0);
+      if (a != b && dot(side, side) <= touching * touching) {
+        sides.emplace_back(a, b);
+      }
+    }
+  }
+  if (sides.empty()) {
+    return false;
+  }
+  DisjointSets sets(static_cast<std::uint32_t>(welded.positions.size()), memory);
+  for (const auto& [a, b] : sides) {
+    sets.unite(a, b);
+  }
+  merge(welded, sets, memory);
+  return true;
+}
+
 }  // namespace
 
 WeldedPositions weld_positions(const Scene& scene, double weld_distance, std::pmr::memory_resource* memory) {
   WeldedPositions welded = weld_equal(scene, memory);
   if (weld_distance > 0) {
     weld_near(welded, weld_distance, memory);
+  }
+  while (weld_short_sides(scene, welded, memory)) {
   }
   return welded;
 }

@@ -90,26 +90,44 @@ struct Side {
   std::uint8_t side;
 };
 
-// The outline of a triangle as links; false where it touches itself: a sliver that only came to lie on its longest side
-// by way of other vertices on it.
 class Outline {
  public:
   Outline(EdgeChains& chains, std::size_t vertex_count, std::pmr::memory_resource* memory)
       : chains_(chains), links_(memory), sides_(memory), last_seen_(vertex_count, k_none, memory) {}
 
-  bool trace(std::uint32_t index, const Triangle& triangle) {
+  void trace(const Triangle& triangle) {
     sides_.clear();
-    bool simple = true;
     for (std::uint8_t side = 0; side < 3; ++side) {
       links_.clear();
       chains_.chain(triangle.vertices[side], triangle.vertices[(side + 1u) % 3], links_);
       for (const auto& link : links_) {
-        simple = simple && last_seen_[link.from] != index;
-        last_seen_[link.from] = index;
         sides_.push_back({link, side});
       }
     }
-    return simple;
+  }
+
+  /// Whether the outline meets itself in some vertex. Takes that vertex back from all sides where it is no corner.
+  bool untie(const Triangle& triangle) {
+    bool tied = false;
+    if (sides_.size() == 3) {
+      return false;
+    }
+    for (std::uint32_t i = 0; i < sides_.size(); ++i) {
+      last_seen_[sides_[i].link.from] = i;
+    }
+    for (std::uint32_t i = 0; i < sides_.size(); ++i) {
+      const std::uint32_t vertex = sides_[i].link.from;
+      if (last_seen_[vertex] == i) {
+        continue;
+      }
+      tied = true;
+      for (const Side& side : sides_) {
+        if (side.link.from == vertex && triangle.vertices[side.side] != vertex) {
+          chains_.refuse(side.link.parent, vertex);
+        }
+      }
+    }
+    return tied;
   }
   std::span<const Side> sides() const { return sides_; }
 
@@ -120,19 +138,30 @@ class Outline {
   std::pmr::vector<std::uint32_t> last_seen_;
 };
 
+// A vertex may lie on two sides of one triangle: near a sharp corner, or in a triangle not much higher than what counts
+// as touching. It stays off these sides, or the triangle would fall apart.
+void untie_outlines(EdgeChains& chains, const WeldedScene& welded, const Jobs& jobs,
+                    std::pmr::memory_resource* memory) {
+  Outline outline(chains, welded.positions.size(), memory);
+  for (bool tied = true; tied;) {
+    tied = false;
+    for (const Triangle& triangle : welded.triangles) {
+      outline.trace(triangle);
+      tied = outline.untie(triangle) || tied;
+    }
+    chains.split(jobs);  // what the changed segments consist of now
+  }
+}
+
 void join_by_edges(EdgeChains& chains, WeldedScene& welded, std::pmr::memory_resource* memory) {
   std::pmr::vector<std::uint32_t> edge_of_segment(chains.segment_count(), k_none, memory);
   std::pmr::vector<bool> counted(welded.positions.size(), false, memory);
   Outline outline(chains, welded.positions.size(), memory);
   welded.uses_by_triangle.reserve(3 * welded.triangles.size());
   welded.first_use.reserve(welded.triangles.size() + 1);
-  std::uint32_t kept = 0;
   for (std::uint32_t t = 0; t < welded.triangles.size(); ++t) {
-    const Triangle triangle = welded.triangles[t];
-    if (!outline.trace(t, triangle)) {
-      ++welded.degenerate_triangles;
-      continue;
-    }
+    const Triangle& triangle = welded.triangles[t];
+    outline.trace(triangle);
     welded.first_use.push_back(static_cast<std::uint32_t>(welded.uses_by_triangle.size()));
     for (const auto& [link, side] : outline.sides()) {
       std::uint32_t& edge = edge_of_segment[link.segment];
@@ -145,11 +174,9 @@ void join_by_edges(EdgeChains& chains, WeldedScene& welded, std::pmr::memory_res
         counted[link.from] = true;
         ++welded.t_junctions;
       }
-      welded.uses_by_triangle.push_back({edge, kept, side, welded.edges[edge].a == link.from});
+      welded.uses_by_triangle.push_back({edge, t, side, welded.edges[edge].a == link.from});
     }
-    welded.triangles[kept++] = triangle;
   }
-  welded.triangles.resize(kept);
   welded.first_use.push_back(static_cast<std::uint32_t>(welded.uses_by_triangle.size()));
 }
 
@@ -234,6 +261,7 @@ WeldedScene weld(const Scene& scene, double weld_distance, Host& host) {
   EdgeChains chains(tolerance, memory);
   keep_triangles(scene, tolerance, chains, welded, memory);
   chains.split(host.jobs);
+  untie_outlines(chains, welded, host.jobs, memory);
   join_by_edges(chains, welded, memory);
   group_uses(welded);
   find_bounds(welded);
