@@ -1,0 +1,65 @@
+// A facet's part of the surface while it is being made: shares, before the surface numbers them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "scene/facets.h"
+#include "scene/scene.h"
+#include "scene/welded.h"
+#include "surface/border_sites.h"
+#include "surface/surface.h"
+
+namespace radvor {
+
+/// All that a facet's triangles are made from.
+struct FacetInput {
+  const Scene& scene;
+  const WeldedScene& welded;
+  const Facets& facets;
+  const SurfaceOptions& options;
+  const BorderSites& borders;
+  std::pmr::memory_resource* memory;
+  std::uint32_t index;  ///< of the facet
+
+  const Facet& facet() const { return facets.facets[index]; }
+};
+
+/// Where a share's normal and colour come from: a side of one of the facet's triangles that the site lies on.
+struct SourceSide {
+  std::uint32_t triangle = k_none;  ///< welded; k_none: the site lies inside the facet
+  std::uint8_t side = 0;
+};
+
+/// One sector of one vertex of the facet.
+struct FacetShare {
+  std::uint32_t vertex;                 ///< in the facet's triangulation
+  std::uint32_t site = k_none;          ///< shared with other facets, or k_none
+  std::uint32_t inner_vertex = k_none;  ///< welded vertex that is a site in this facet alone, or k_none
+  std::uint32_t patch = k_none;         ///< of the facet's own patches, or k_none
+  SourceSide source;
+  Vec2 position{0.0};
+  Vec2 centroid{0.0};
+  Vec2 receiver{0.0};
+  double area = 0;
+};
+
+/// A piece of a welded edge between neighbouring sites, with the shares at its ends on the facet's side.
+struct BorderPiece {
+  std::uint32_t edge;
+  std::uint32_t index;      ///< counted from the edge's a
+  std::uint32_t low, high;  ///< nearer to a, nearer to b
+};
+
+struct FacetDraft {
+  explicit FacetDraft(std::pmr::memory_resource* memory) : shares(memory), pieces(memory), joined(memory) {}
+
+  std::pmr::vector<FacetShare> shares;
+  std::pmr::vector<BorderPiece> pieces;                   ///< of edges that irradiance is shared across
+  std::pmr::vector<std::array<std::uint32_t, 2>> joined;  ///< shares that are one sample within the facet
+  std::uint32_t patch_count = 0;
+};
+
+}  // namespace radvor

@@ -1,0 +1,92 @@
+#include "surface/facet_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "surface/cut_triangles.h"
+#include "surface/facet_triangulator.h"
+
+namespace radvor {
+
+FacetMesh::FacetMesh(const FacetInput& input, FacetDraft& draft)
+    : triangles_(input.memory), index_of_triangle_(input.memory), first_share_(input.memory) {
+  if (!FacetTriangulator(input, *this, draft).run()) {
+    cut_triangles(input, triangles_, draft);
+  }
+}
+
+bool FacetMesh::needed(const FacetInput& input) {
+  const auto triangles = input.facets.triangles_of(input.index);
+  const auto uses = input.welded.uses_of_triangle(triangles.front());
+  return triangles.size() != 1 || uses.size() != 3 || std::any_of(uses.begin(), uses.end(), [&](const EdgeUse& use) {
+           return input.borders.count_on_edge(use.edge) != 0;
+         });
+}
+
+void FacetMesh::number_shares(std::uint32_t first) {
+  for (ShareTriangle& triangle : triangles_) {
+    for (std::uint32_t& share : triangle) {
+      share += first;
+    }
+  }
+  for (std::uint32_t& share : first_share_) {
+    share += first;
+  }
+}
+
+std::span<const Vec2> FacetMesh::cell(std::uint32_t vertex, std::uint32_t share, delaunay::CellBuffer& buffer) const {
+  bounded_cell(*delaunay_, vertex, buffer);
+  return buffer.polygon(buffer.sectors()[share - first_share_[vertex]]);
+}
+
+std::uint32_t FacetMesh::locate(const Vec2& point) const {
+  const delaunay::Location location = delaunay_->locate(point);
+  if (location.edge != delaunay::k_none) {
+    // The triangle itself; where it lies outside of the domain, one round its corners that the point is in but for
+    // rounding.
+    const std::uint32_t found = index_of_triangle_[delaunay::triangle_of(location.edge)];
+    if (found != k_none) {
+      return found;
+    }
+    for (const delaunay::VertexId vertex : delaunay_->triangle(delaunay::triangle_of(location.edge))) {
+      std::uint32_t beside = k_none;
+      if (vertex != delaunay::k_infinite) {
+        delaunay_->for_each_inside_triangle(vertex, [&](delaunay::TriangleId t) {
+          const auto weights = delaunay_->barycentric(t, point);
+          constexpr double k_rounding = 1e-9;
+          if (std::min({weights[0], weights[1], weights[2]}) >= -k_rounding) {
+            beside = index_of_triangle_[t];
+          }
+        });
+      }
+      if (beside != k_none) {
+        return beside;
+      }
+    }
+  }
+  return nearest_triangle(point);
+}
+
+std::uint32_t FacetMesh::nearest_triangle(const Vec2& point) const {
+  std::uint32_t nearest = 0;
+  double least = HUGE_VAL;
+  for (delaunay::TriangleId t = 0; t < index_of_triangle_.size(); ++t) {
+    if (index_of_triangle_[t] == k_none) {
+      continue;
+    }
+    const auto corners = delaunay_->triangle(t);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 a = delaunay_->position(corners[k]);
+      const Vec2 along = delaunay_->position(corners[(k + 1) % 3]) - a;
+      const double part = std::clamp(glm::dot(point - a, along) / glm::dot(along, along), 0.0, 1.0);
+      const double distance = glm::distance(point, a + part * along);
+      if (distance < least) {
+        least = distance;
+        nearest = index_of_triangle_[t];
+      }
+    }
+  }
+  return nearest;
+}
+
+}  // namespace radvor

@@ -1,0 +1,228 @@
+#include "surface/facet_triangulator.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "surface/border.h"
+#include "surface/facet_outline.h"
+#include "surface/interior_sites.h"
+#include "surface/lattice_patches.h"
+#include "surface/receiver_point.h"
+#include "surface/triangle_cells.h"
+
+namespace radvor {
+
+namespace {
+
+// A facet has patches of its own if it is at least this part of one; smaller ones are grouped with their neighbours.
+constexpr double k_least_patch = 0.5;
+
+// The triangles' area must be the facet's up to what rounding and slight bends explain; if it is not, the outline
+// folded when it was rounded into the plane.
+constexpr double k_area_tolerance = 0.01;
+
+// How well a border edge names the source of a share's normal and colour.
+enum class Claim : std::uint8_t { none, crossing, arriving, leaving };
+
+}  // namespace
+
+FacetTriangulator::FacetTriangulator(const FacetInput& input, FacetMesh& mesh, FacetDraft& draft)
+    : in_(input),
+      mesh_(mesh),
+      draft_(draft),
+      outline_(input.welded, input.facets, input.index, input.memory),
+      chains_(input.memory),
+      first_of_chain_(input.memory),
+      site_of_vertex_(input.memory),
+      borders_(input.memory),
+      inner_(input.memory),
+      walls_(input.memory),
+      lattice_sites_(input.memory),
+      share_at_(input.memory) {}
+
+bool FacetTriangulator::run() {
+  if (!outline_.sound) {
+    return false;
+  }
+  try {
+    delaunay::Triangulation& triangulation = mesh_.delaunay_.emplace(in_.memory);
+    if (insert_corners(triangulation) && insert_borders(triangulation)) {
+      triangulation.mark_domain();
+      insert_lattice(triangulation);
+      if (find_shares(triangulation) && find_triangles(triangulation) && find_sources(triangulation)) {
+        find_patches();
+        return true;
+      }
+    }
+  } catch (const Error&) {
+    // Borders that cross, do not close, or would fold: what degenerate input does once it is rounded into a plane.
+  }
+  mesh_.delaunay_.reset();
+  mesh_.lattice_.reset();
+  mesh_.triangles_.clear();
+  mesh_.index_of_triangle_.clear();
+  mesh_.first_share_.clear();
+  draft_.shares.clear();
+  draft_.pieces.clear();
+  return false;
+}
+
+bool FacetTriangulator::insert_corners(delaunay::Triangulation& triangulation) {
+  const Frame& frame = in_.facet().frame;
+  std::pmr::vector<Vec2> points(in_.memory);
+  for (const std::uint32_t vertex : outline_.vertices) {
+    points.push_back(frame.to_plane(in_.welded.positions[vertex]));
+    site_of_vertex_.push_back(in_.borders.at_vertex(vertex));
+    low_ = points.size() == 1 ? points.back() : glm::min(low_, points.back());
+    high_ = points.size() == 1 ? points.back() : glm::max(high_, points.back());
+  }
+  triangulation.insert_many(points, nullptr);  // numbered in the order given, unless two fall together
+  return triangulation.vertex_count() == points.size();
+}
+
+delaunay::VertexId FacetTriangulator::corner(std::uint32_t welded_vertex) const {
+  const auto at = std::lower_bound(outline_.vertices.begin(), outline_.vertices.end(), welded_vertex);
+  return static_cast<delaunay::VertexId>(at - outline_.vertices.begin());
+}
+
+bool FacetTriangulator::insert_borders(delaunay::Triangulation& triangulation) {
+  for (const OutlineEdge& edge : outline_.edges) {
+    const Edge& ends = in_.welded.edges[edge.edge];
+    const delaunay::VertexId a = corner(ends.a);
+    const delaunay::VertexId b = corner(ends.b);
+    triangulation.constrain(a, b, edge.flags);
+    if (triangulation.constraint_flags(a, b) == 0) {
+      return false;  // a corner lies on it, though it is not a T-junction in space
+    }
+    const Segment segment{triangulation.position(a), triangulation.position(b)};
+    (edge.flags == delaunay::constraint::k_border ? borders_ : inner_).push_back(segment);
+    if (edge.flags & delaunay::constraint::k_blocking) {
+      walls_.push_back(segment);
+    }
+  }
+  // All constraints first: a border site just beside the line must not be in the way of one.
+  const Frame& frame = in_.facet().frame;
+  for (const OutlineEdge& edge : outline_.edges) {
+    const Edge& ends = in_.welded.edges[edge.edge];
+    const std::uint32_t count = in_.borders.count_on_edge(edge.edge);
+    const EdgeSites sites = in_.borders.along(edge.edge);
+    first_of_chain_.push_back(static_cast<std::uint32_t>(chains_.size()));
+    chains_.push_back(corner(ends.a));
+    for (std::uint32_t index = 0; index < count; ++index) {
+      const Vec2 point = frame.to_plane(sites.position(index));
+      chains_.push_back(triangulation.split(chains_.back(), corner(ends.b), point));
+      site_of_vertex_.push_back(in_.borders.first_on_edge(edge.edge) + index);
+    }
+    chains_.push_back(corner(ends.b));
+  }
+  first_of_chain_.push_back(static_cast<std::uint32_t>(chains_.size()));
+  return true;
+}
+
+void FacetTriangulator::insert_lattice(delaunay::Triangulation& triangulation) {
+  const FacetLattice& lattice =
+      mesh_.lattice_.emplace(in_.options.lattice, in_.options.patch_spacing, 0.5 * (low_ + high_));
+  const std::uint32_t level = in_.options.element_levels;
+  find_interior_sites(lattice, level, borders_, inner_, k_half_spacing * lattice.column(level), lattice_sites_,
+                      in_.memory);
+  std::pmr::vector<Vec2> points(in_.memory);
+  points.reserve(lattice_sites_.size());
+  for (const LatticeIndex& index : lattice_sites_) {
+    points.push_back(lattice.point(level, index));
+  }
+  triangulation.insert_many(points, nullptr);
+}
+
+bool FacetTriangulator::find_shares(const delaunay::Triangulation& triangulation) {
+  const std::uint32_t vertices = triangulation.vertex_bound();
+  mesh_.first_share_.reserve(vertices);
+  draft_.shares.reserve(vertices);
+  share_at_.assign(std::size_t{4} * triangulation.triangle_bound(), k_none);
+  delaunay::CellBuffer buffer(in_.memory);
+  double area = 0;
+  for (delaunay::VertexId vertex = 0; vertex < vertices; ++vertex) {
+    bounded_cell(triangulation, vertex, buffer);
+    mesh_.first_share_.push_back(static_cast<std::uint32_t>(draft_.shares.size()));
+    for (const delaunay::Sector& sector : buffer.sectors()) {
+      delaunay::HalfEdge h = sector.first;
+      for (std::uint32_t k = 0; k < sector.triangle_count; ++k, h = triangulation.rotate_ccw(h)) {
+        share_at_[h] = static_cast<std::uint32_t>(draft_.shares.size());
+      }
+      FacetShare& share = draft_.shares.emplace_back();
+      share.vertex = vertex;
+      share.site = vertex < site_of_vertex_.size() ? site_of_vertex_[vertex] : k_none;
+      share.position = triangulation.position(vertex);
+      share.centroid = sector.centroid;
+      share.receiver = receiver_point(share.position, buffer.polygon(sector), sector.centroid);
+      share.area = sector.area;
+      area += sector.area;
+    }
+  }
+  return std::abs(area - in_.facet().area) <= k_area_tolerance * in_.facet().area;
+}
+
+bool FacetTriangulator::find_triangles(const delaunay::Triangulation& triangulation) {
+  mesh_.index_of_triangle_.assign(triangulation.triangle_bound(), k_none);
+  for (delaunay::TriangleId t = 0; t < triangulation.triangle_bound(); ++t) {
+    if (triangulation.is_triangle(t) && triangulation.is_inside(t)) {
+      mesh_.index_of_triangle_[t] = static_cast<std::uint32_t>(mesh_.triangles_.size());
+      ShareTriangle& shares = mesh_.triangles_.emplace_back();
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        shares[k] = share_at_[delaunay::half_edge(t, k)];
+        if (shares[k] == k_none) {
+          return false;
+        }
+      }
+    }
+  }
+  return !mesh_.triangles_.empty();
+}
+
+bool FacetTriangulator::find_sources(const delaunay::Triangulation& triangulation) {
+  std::pmr::vector<Claim> claims(draft_.shares.size(), Claim::none, in_.memory);
+  const auto claim = [&](std::uint32_t share, Claim strength, const EdgeUse& use) {
+    if (strength > claims[share]) {
+      claims[share] = strength;
+      draft_.shares[share].source = {use.triangle, use.side};
+    }
+  };
+  for (std::size_t k = 0; k < outline_.edges.size(); ++k) {
+    const OutlineEdge& edge = outline_.edges[k];
+    const bool blocking = (edge.flags & delaunay::constraint::k_blocking) != 0;
+    for (const EdgeUse& use : outline_.uses_of(edge)) {
+      for (std::uint32_t at = first_of_chain_[k]; at + 1 < first_of_chain_[k + 1]; ++at) {
+        const delaunay::HalfEdge h = use.forward ? triangulation.find_edge(chains_[at], chains_[at + 1])
+                                                 : triangulation.find_edge(chains_[at + 1], chains_[at]);
+        if (h == delaunay::k_none || share_at_[h] == k_none) {
+          return false;  // the facet is not where its triangles say it is
+        }
+        const std::uint32_t from = share_at_[h];
+        const std::uint32_t to = share_at_[delaunay::next(h)];
+        claim(from, blocking ? Claim::leaving : Claim::crossing, use);
+        claim(to, blocking ? Claim::arriving : Claim::crossing, use);
+        if (in_.borders.joins(edge.edge)) {
+          draft_.pieces.push_back(
+              {edge.edge, at - first_of_chain_[k], use.forward ? from : to, use.forward ? to : from});
+        }
+      }
+    }
+  }
+  return true;
+}
+
+void FacetTriangulator::find_patches() {
+  const FacetLattice& lattice = *mesh_.lattice_;
+  if (in_.facet().area < k_least_patch * lattice.cell_area()) {
+    return;
+  }
+  const LatticePatches patches(lattice, in_.options.element_levels, lattice_sites_, walls_, in_.memory);
+  draft_.patch_count = patches.count();
+  if (patches.count() > 0) {
+    for (FacetShare& share : draft_.shares) {
+      share.patch = patches.nearest(share.position, share.receiver);
+    }
+  }
+}
+
+}  // namespace radvor

@@ -1,0 +1,48 @@
+// The steps from a facet's outline to its triangulation and shares.
+#pragma once
+
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "delaunay/triangulation.h"
+#include "surface/facet_draft.h"
+#include "surface/facet_mesh.h"
+#include "surface/facet_outline.h"
+#include "surface/lattice.h"
+#include "surface/segments.h"
+
+namespace radvor {
+
+class FacetTriangulator {
+ public:
+  FacetTriangulator(const FacetInput& input, FacetMesh& mesh, FacetDraft& draft);
+
+  /// Fills mesh and draft; false, with both empty, where the facet is too degenerate.
+  bool run();
+
+ private:
+  bool insert_corners(delaunay::Triangulation& triangulation);
+  bool insert_borders(delaunay::Triangulation& triangulation);
+  void insert_lattice(delaunay::Triangulation& triangulation);
+  bool find_shares(const delaunay::Triangulation& triangulation);
+  bool find_triangles(const delaunay::Triangulation& triangulation);
+  bool find_sources(const delaunay::Triangulation& triangulation);
+  void find_patches();
+  delaunay::VertexId corner(std::uint32_t welded_vertex) const;
+
+  const FacetInput& in_;
+  FacetMesh& mesh_;
+  FacetDraft& draft_;
+  FacetOutline outline_;
+  std::pmr::vector<delaunay::VertexId> chains_;     // per outline edge: its a, the sites inside, its b
+  std::pmr::vector<std::uint32_t> first_of_chain_;  // per outline edge, and one past the last
+  std::pmr::vector<std::uint32_t> site_of_vertex_;  // of border vertices, which come first
+  std::pmr::vector<Segment> borders_, inner_;       // outline edges: of the domain, and within it
+  std::pmr::vector<Segment> walls_;                 // those that cells end at
+  std::pmr::vector<LatticeIndex> lattice_sites_;    // their vertices come last
+  std::pmr::vector<std::uint32_t> share_at_;        // per half-edge: share of its origin, in its triangle
+  Vec2 low_{0.0}, high_{0.0};
+};
+
+}  // namespace radvor

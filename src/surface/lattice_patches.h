@@ -1,0 +1,33 @@
+// A facet's own patches: each element belongs to the level-0 site whose cell encloses it, the nearest one that it sees.
+#pragma once
+
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "base/vector.h"
+#include "surface/lattice.h"
+#include "surface/segments.h"
+
+namespace radvor {
+
+class LatticePatches {
+ public:
+  /// sites: the facet's lattice sites, of a level, row by row; walls: what sites do not see across.
+  LatticePatches(const FacetLattice& lattice, std::uint32_t level, std::span<const LatticeIndex> sites,
+                 std::span<const Segment> walls, std::pmr::memory_resource* memory);
+
+  /// Sites of level 0.
+  std::uint32_t count() const { return static_cast<std::uint32_t>(centres_.size()); }
+
+  /// The patch of a site, k_none where none is both near and in sight. receiver: in the site's cell, off the walls.
+  std::uint32_t nearest(const Vec2& site, const Vec2& receiver) const;
+
+ private:
+  const FacetLattice& lattice_;
+  SegmentGrid walls_;
+  std::pmr::vector<LatticeIndex> centres_;  // of level 0, by row, then column
+};
+
+}  // namespace radvor

@@ -1,0 +1,147 @@
+// Samples: shares at one site that smooth edges join are one receiver.
+#include <cmath>
+
+#include "scene/disjoint_sets.h"
+#include "surface/surface_parts.h"
+
+namespace radvor {
+
+namespace {
+
+class SampleMaker {
+ public:
+  SampleMaker(SurfaceParts& parts, const SurfaceDraft& draft, const BorderSites& borders)
+      : parts_(parts),
+        draft_(draft),
+        borders_(borders),
+        sets_(static_cast<std::uint32_t>(parts.shares.size()), parts.memory),
+        first_piece_(parts.welded.edges.size(), k_none, parts.memory),
+        waiting_(parts.memory) {}
+
+  void run() {
+    join_shares();
+    collect();
+    finish();
+  }
+
+ private:
+  struct Ends {
+    std::uint32_t low = k_none, high = k_none;
+  };
+
+  void join(std::uint32_t a, std::uint32_t b) {
+    sets_.unite(a, b);
+    const std::uint32_t back_a = parts_.shares[a].other_side;
+    const std::uint32_t back_b = parts_.shares[b].other_side;
+    if (back_a != k_none && back_b != k_none) {
+      sets_.unite(back_a, back_b);
+    }
+  }
+
+  // The first facet at a piece of edge waits there for the second.
+  void meet(const BorderPiece& piece) {
+    std::uint32_t& first = first_piece_[piece.edge];
+    if (first == k_none) {
+      first = static_cast<std::uint32_t>(waiting_.size());
+      waiting_.resize(waiting_.size() + borders_.count_on_edge(piece.edge) + 1);
+    }
+    Ends& ends = waiting_[first + piece.index];
+    if (ends.low == k_none) {
+      ends = {piece.low, piece.high};
+    } else {
+      join(ends.low, piece.low);
+      join(ends.high, piece.high);
+    }
+  }
+
+  void join_shares() {
+    for (std::uint32_t facet = 0; facet < parts_.records.size(); ++facet) {
+      const FacetRecord& record = parts_.records[facet];
+      if (record.first_share == k_none) {
+        continue;
+      }
+      const std::uint32_t first = record.first_share;
+      if (record.mesh == k_none) {
+        for (const EdgeUse& use : parts_.welded.uses_of_triangle(parts_.facets.triangles_of(facet).front())) {
+          if (borders_.joins(use.edge)) {
+            const std::uint32_t from = first + use.side;
+            const std::uint32_t to = first + (use.side + 1u) % 3u;
+            meet({use.edge, 0, use.forward ? from : to, use.forward ? to : from});
+          }
+        }
+        continue;
+      }
+      const FacetDraft& facet_draft = draft_.facets[record.mesh];
+      for (const auto& pair : facet_draft.joined) {
+        join(first + pair[0], first + pair[1]);
+      }
+      for (const BorderPiece& piece : facet_draft.pieces) {
+        meet({piece.edge, piece.index, first + piece.low, first + piece.high});
+      }
+    }
+  }
+
+  void collect() {
+    const auto count = static_cast<std::uint32_t>(parts_.shares.size());
+    std::pmr::vector<std::uint32_t> last(parts_.memory);  // per sample: its latest share
+    for (std::uint32_t index = 0; index < count; ++index) {
+      Share& share = parts_.shares[index];
+      const std::uint32_t root = sets_.find(index);
+      if (root == index) {  // a set's smallest member: its sample is new
+        share.sample = static_cast<std::uint32_t>(parts_.samples.size());
+        Sample& sample = parts_.samples.emplace_back();
+        sample.site = draft_.site_of_share[index];
+        sample.first_share = index;
+        last.push_back(index);
+      } else {
+        share.sample = parts_.shares[root].sample;
+        parts_.shares[last[share.sample]].next_in_sample = index;
+        last[share.sample] = index;
+      }
+    }
+  }
+
+  void finish() {
+    constexpr std::uint32_t k_chunk = 1024;
+    const auto count = static_cast<std::uint32_t>(parts_.samples.size());
+    parts_.host.jobs.for_each((count + k_chunk - 1) / k_chunk, [&](std::uint32_t chunk) {
+      for (std::uint32_t index = chunk * k_chunk; index < std::min(count, (chunk + 1) * k_chunk); ++index) {
+        finish(parts_.samples[index]);
+      }
+    });
+  }
+
+  void finish(Sample& sample) const {
+    std::uint32_t largest = sample.first_share;
+    Vec3 normal(0.0);
+    for (std::uint32_t index = sample.first_share; index != k_none; index = parts_.shares[index].next_in_sample) {
+      const Share& share = parts_.shares[index];
+      sample.area += share.area;
+      normal += share.area * draft_.normals[index];
+      largest = share.area > parts_.shares[largest].area ? index : largest;
+    }
+    const Share& share = parts_.shares[largest];
+    const double length = glm::length(normal);
+    const bool alone = parts_.shares[sample.first_share].next_in_sample == k_none;
+    sample.normal = alone || !(length > 0) ? draft_.normals[largest] : normal / length;
+    sample.facet = share.facet;
+    const Vec3& facet_normal = parts_.facets.facets[share.facet].frame.normal;
+    sample.facet_normal = share.back ? -facet_normal : facet_normal;
+    sample.point = draft_.receivers[largest];
+  }
+
+  SurfaceParts& parts_;
+  const SurfaceDraft& draft_;
+  const BorderSites& borders_;
+  DisjointSets sets_;
+  std::pmr::vector<std::uint32_t> first_piece_;  // per edge: into waiting_
+  std::pmr::vector<Ends> waiting_;
+};
+
+}  // namespace
+
+void make_samples(SurfaceParts& parts, const SurfaceDraft& draft, const BorderSites& borders) {
+  SampleMaker(parts, draft, borders).run();
+}
+
+}  // namespace radvor

@@ -1,0 +1,41 @@
+// Straight pieces of border in a facet's plane, and whether one of them hides a site from a point.
+#pragma once
+
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "base/vector.h"
+
+namespace radvor {
+
+struct Segment {
+  Vec2 a, b;
+};
+
+/// A uniform grid over segments: lines of sight ask those nearby alone.
+class SegmentGrid {
+ public:
+  /// width: of a grid cell, about the length of the queries, scene units > 0. Keeps a view of the segments.
+  SegmentGrid(std::span<const Segment> segments, double width, std::pmr::memory_resource* memory);
+
+  /// Whether a segment crosses the line of sight from p to q.
+  bool blocks(const Vec2& p, const Vec2& q) const;
+
+ private:
+  struct Cells {
+    std::int64_t low_x, low_y, high_x, high_y;
+  };
+  Cells cells_of(const Vec2& p, const Vec2& q) const;
+  std::size_t index(std::int64_t x, std::int64_t y) const { return static_cast<std::size_t>(y * columns_ + x); }
+
+  std::span<const Segment> segments_;
+  Vec2 low_{0.0};
+  double width_;
+  std::int64_t columns_ = 1, rows_ = 1;
+  std::pmr::vector<std::uint32_t> first_;  // per cell, and one past the last
+  std::pmr::vector<std::uint32_t> members_;
+};
+
+}  // namespace radvor

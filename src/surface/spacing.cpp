@@ -1,0 +1,97 @@
+#include "surface/spacing.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace radvor {
+
+namespace {
+
+constexpr double k_patches_at_unit_tolerance = 30;  // patches = this / tolerance
+constexpr std::uint32_t k_refinements = 3;          // from the first elements to min_spacing, where left open
+constexpr double k_most_sites = 1 << 28;            // ids are 32 bits, and a sample may have several shares
+
+// What the number of sites depends on: lattice sites go by area, border sites by length, corners are there anyway.
+struct Extent {
+  double area = 0;            // of receiving sides
+  double one_sided = 0;       // of receiving facets, each counted once
+  double border = 0;          // length of edges that carry sites, each counted once
+  std::uint32_t corners = 0;  // welded vertices on them
+};
+
+Extent measure(const Scene& scene, const WeldedScene& welded, const Facets& facets) {
+  Extent extent;
+  for (const Facet& facet : facets.facets) {
+    if (scene.meshes[facet.mesh].receives) {
+      extent.one_sided += facet.area;
+      extent.area += scene.materials[facet.material].two_sided ? 2 * facet.area : facet.area;
+    }
+  }
+  for (std::uint32_t edge = 0; edge < welded.edges.size(); ++edge) {
+    if (facets.edge_kinds[edge] != EdgeKind::interior) {
+      extent.border += glm::distance(welded.positions[welded.edges[edge].a], welded.positions[welded.edges[edge].b]);
+      ++extent.corners;  // planar subdivisions have up to three edges a vertex, polygons one: an upper bound
+    }
+  }
+  extent.corners = std::min(extent.corners, static_cast<std::uint32_t>(welded.positions.size()));
+  return extent;
+}
+
+// Area of a lattice's cell over the square of its spacing.
+double cell_shape(Lattice lattice) {
+  return lattice == Lattice::hexagonal ? 0.8660254037844386 : 1.0;
+}
+
+double estimate_sites(const Extent& extent, Lattice lattice, double spacing) {
+  return extent.one_sided / (cell_shape(lattice) * spacing * spacing) + extent.border / spacing + extent.corners;
+}
+
+std::uint32_t levels_for(double tolerance) {
+  if (tolerance >= 0.08) {
+    return 1;
+  }
+  return tolerance <= 0.005 ? 3 : 2;
+}
+
+double scaled_down(double spacing, std::uint32_t levels) {
+  return std::ldexp(spacing, -static_cast<int>(levels));
+}
+
+}  // namespace
+
+SurfaceOptions choose_spacing(const Scene& scene, const WeldedScene& welded, const Facets& facets,
+                              const SpacingRequest& request) {
+  const Extent extent = measure(scene, welded, facets);
+  SurfaceOptions options;
+  options.lattice = request.lattice;
+
+  if (request.patch_spacing > 0) {
+    options.patch_spacing = request.patch_spacing;
+  } else if (extent.area > 0) {
+    const double patches = k_patches_at_unit_tolerance / request.tolerance;
+    options.patch_spacing = std::sqrt(extent.area / (patches * cell_shape(request.lattice)));
+  }
+
+  options.element_levels = request.element_levels > 0 ? request.element_levels : levels_for(request.tolerance);
+  if (request.element_levels == 0) {
+    while (options.element_levels > 0 &&
+           scaled_down(options.patch_spacing, options.element_levels) < request.min_spacing) {
+      --options.element_levels;
+    }
+  }
+
+  // Corners alone may exceed the limit: then nothing is gained by a spacing beyond the scene's size.
+  const double most = request.max_sites > 0 ? static_cast<double>(request.max_sites) : k_most_sites;
+  const double scene_size = glm::distance(welded.low, welded.high);
+  while (scaled_down(options.patch_spacing, options.element_levels) < scene_size &&
+         estimate_sites(extent, options.lattice, scaled_down(options.patch_spacing, options.element_levels)) > most) {
+    options.patch_spacing *= 1.09050773266525766;  // 2^(1/8)
+  }
+
+  options.min_spacing = request.min_spacing > 0
+                            ? request.min_spacing
+                            : scaled_down(options.patch_spacing, options.element_levels + k_refinements);
+  return options;
+}
+
+}  // namespace radvor
