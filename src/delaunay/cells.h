@@ -1,5 +1,6 @@
 // Voronoi cells as polygons: bounded by constraints (what belongs to the nearest site that a point sees), or clipped to
-// a convex window. See "The Bounded Voronoi Diagram", R. Seidel, and the constrained Delaunay triangulation it is dual to.
+// a convex window. See "The Bounded Voronoi Diagram", R. Seidel, and the constrained Delaunay triangulation it is dual
+// to.
 #pragma once
 
 #include <cstdint>

@@ -104,6 +104,11 @@ class Mesh {
   }
   void link(HalfEdge a, HalfEdge b);
   void set_triangle(TriangleId t, VertexId a, VertexId b, VertexId c, std::uint8_t state);
+  /// The origin of h becomes another vertex.
+  void replace_corner(HalfEdge h, VertexId v) {
+    write(triangle_of(h)).vertex[corner_of(h)] = v;
+    outs_[v] = h;
+  }
   /// Both sides of the edge.
   void set_constraint(HalfEdge h, std::uint8_t flags);
   void set_state(TriangleId t, std::uint8_t state) { write(t).state = state; }

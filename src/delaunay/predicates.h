@@ -27,12 +27,11 @@ class Lattice {
 
  private:
   void include(double x) noexcept {
-    // Not an integer number of units (2^53 units and more are one, or are found out by the exact stages).
     const double units = x * per_unit_;
-    if (std::fabs(units) < 0x1p62 && static_cast<double>(static_cast<std::int64_t>(units)) == units) {
-      return;
+    // From 2^53 on every double is an integer.
+    if (std::fabs(units) < 0x1p53 && static_cast<double>(static_cast<std::int64_t>(units)) != units) {
+      refine(x);
     }
-    refine(x);
   }
   void refine(double x) noexcept;
 
@@ -75,8 +74,7 @@ inline int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice) {
   const double a_lift = adx * adx + ady * ady;
   const double b_lift = bdx * bdx + bdy * bdy;
   const double c_lift = cdx * cdx + cdy * cdy;
-  const double determinant =
-      a_lift * (bdx_cdy - cdx_bdy) + b_lift * (cdx_ady - adx_cdy) + c_lift * (adx_bdy - bdx_ady);
+  const double determinant = a_lift * (bdx_cdy - cdx_bdy) + b_lift * (cdx_ady - adx_cdy) + c_lift * (adx_bdy - bdx_ady);
   const double magnitude = (std::fabs(bdx_cdy) + std::fabs(cdx_bdy)) * a_lift +
                            (std::fabs(cdx_ady) + std::fabs(adx_cdy)) * b_lift +
                            (std::fabs(adx_bdy) + std::fabs(bdx_ady)) * c_lift;

@@ -77,7 +77,8 @@ class Triangulation {
   /// are constraints already get the new flags added. flags: nonzero, see namespace constraint.
   void constrain(VertexId a, VertexId b, std::uint8_t flags, Crossing crossing = Crossing::refuse);
 
-  /// Frees the constraint edge a-b, or the collinear ones that constrain made of it. Throws constraint if there is none.
+  /// Frees the constraint edge a-b, or the collinear ones that constrain made of it. Throws constraint if there is
+  /// none.
   void unconstrain(VertexId a, VertexId b);
 
   /// A point replaces the constraint edge a-b by a-p and p-b with the same flags, even where rounding put it beside
@@ -94,7 +95,8 @@ class Triangulation {
 
   /// Marks triangles inside or outside of the polygon that the border edges bound: outside at infinity, and the other
   /// way beyond every border edge (even-odd, so holes and islands need no order). Later edits keep the marks; call it
-  /// again after border edges were added or freed. Throws constraint where border edges do not close.
+  /// again after border edges were added. Freeing an edge between inside and outside unmarks the domain. Throws
+  /// constraint where border edges do not close.
   void mark_domain();
   /// Everything in the convex hull is inside, as before mark_domain.
   void unmark_domain();
@@ -201,7 +203,6 @@ class Triangulation {
  private:
   friend class TieResolver;
   friend class Audit;
-  class Transaction;
 
   struct BoundaryEdge {
     HalfEdge outer;      // the triangle beyond keeps it
@@ -210,34 +211,65 @@ class Triangulation {
 
   // insert.cpp
   static void check(Vec2 point);
-  VertexId insert_checked(Vec2 point, HalfEdge start);
-  void collect_cavity(Vec2 point, TriangleId start, HalfEdge crossed);
-  void fill_cavity(VertexId p);
-  VertexId insert_at(Vec2 point, const Location& location);
-  void insert_collinear(VertexId p, const Location& location);
-  bool conflicts(HalfEdge entry, Vec2 point) const;
-  VertexId add_vertex(Vec2 point);
   void reserve_one();
+  VertexId add_vertex(Vec2 point);
+  VertexId insert_new(Vec2 point, const Location& location);
+  void prepare(Vec2 point, const Location& location);
+  void place(VertexId p, const Location& location);
+  void collect_cavity(Vec2 point, TriangleId start, HalfEdge crossed, const Lattice& lattice,
+                      std::pmr::vector<BoundaryEdge>& boundary, std::pmr::vector<TriangleId>& cavity,
+                      std::pmr::vector<HalfEdge>& stack) const;
+  void fill_cavity(VertexId p);
+  bool conflicts(HalfEdge entry, Vec2 point, const Lattice& lattice) const;
+
+  // chain.cpp
+  void start_chain(VertexId a, VertexId p);
+  void extend_chain(VertexId p, HalfEdge end);
+  void split_chain(VertexId p, HalfEdge uv);
+  void remove_from_chain(VertexId vertex);
+
+  // bulk.cpp
+  void insert_all(std::span<const Vec2> points, VertexId* vertices);
+  void renumber(VertexId first, std::span<const VertexId> renumbered, VertexId end);
 
   // locate.cpp
-  HalfEdge start_near(Vec2 point, VertexId hint) const;
-  Location walk(Vec2 point, HalfEdge start) const;
-  Location straight_walk(Vec2 point, VertexId start) const;
-  Location walk_collinear(Vec2 point, HalfEdge start) const;
+  HalfEdge start_near(VertexId hint) const;
+  Location locate_from(Vec2 point, HalfEdge start, const Lattice& lattice) const;
+  Location straight_walk(Vec2 point, VertexId start, const Lattice& lattice) const;
+  Location walk_chain(Vec2 point, HalfEdge start, const Lattice& lattice) const;
+  Location describe(Where where, HalfEdge h) const;
 
   // flips.cpp
+  bool is_flippable(HalfEdge h) const;
   bool prefers_flip(HalfEdge h) const;
-  void legalize(std::pmr::vector<HalfEdge>& stack);
+  void legalize();
 
   // remove.cpp
-  void remove_flat(VertexId vertex);
+  VertexId only_vertex() const;
+  void forget_vertex(VertexId vertex);
+  void remove_from_plane(VertexId vertex);
+  void shrink_star(VertexId vertex);
+  void close_inner(VertexId vertex);
+  void close_hull(VertexId vertex);
 
   // constrain.cpp
+  using Pair = std::array<VertexId, 2>;
+  struct Segment;
   void require_vertex(VertexId vertex) const;
-  VertexId constrain_piece(VertexId a, VertexId b, std::uint8_t flags, Crossing crossing);
+  void constrain_along(VertexId a, VertexId b, std::uint8_t flags, Crossing crossing);
+  VertexId next_stop(Segment& segment) const;
+  void force_edge(Segment& segment);
+  void free_edge(HalfEdge h);
+
+  // split.cpp
+  VertexId split_edge(HalfEdge h, Vec2 point);
+  VertexId split_crossing(VertexId a, VertexId b, Pair edge);
 
   void report_star(VertexId vertex);
-  void refresh_ties();
+  void report(VertexId vertex) { changed_.push_back(vertex); }
+  void make_report_unique();
+  template <class Edit>
+  void transact(Edit&& edit);
 
   std::pmr::memory_resource* memory_;
   Mesh mesh_;
@@ -245,9 +277,10 @@ class Triangulation {
   std::pmr::vector<double> values_;   // empty until a value is set
   std::uint32_t vertex_count_ = 0;
   VertexId free_vertex_ = k_none;
-  bool flat_ = true;      // all vertices are collinear: no real triangle
-  bool steered_ = false;  // some value was set: ties may be other than canonical
-  HalfEdge last_ = k_none;  // where the last insertion was
+  bool flat_ = true;        // all vertices are collinear: no real triangle
+  bool steered_ = false;    // some value was set: ties may be other than canonical
+  bool marked_ = false;     // by mark_domain
+  VertexId last_ = k_none;  // where the last edit was
   Lattice lattice_;
 
   // Scratch that insertions keep.

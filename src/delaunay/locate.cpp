@@ -1,0 +1,232 @@
+// Where a point is. A visibility walk from triangle to triangle; it may go round in circles where constraints make the
+// triangulation not Delaunay (Devillers, Pion, Teillaud, "Walking in a Triangulation", 2002), so after a generous
+// number of steps the walk goes on along the straight line, which ends in any triangulation.
+#include <cmath>
+
+#include "base/error.h"
+#include "delaunay/triangulation.h"
+
+namespace radvor::delaunay {
+
+Location Triangulation::locate(Vec2 point, VertexId* hint) const {
+  check(point);
+  Location location;
+  if (vertex_count_ == 0) {
+    return location;
+  }
+  if (vertex_count_ == 1) {
+    const VertexId only = only_vertex();
+    if (positions_[only] == point) {
+      location.where = Where::vertex;
+      location.vertices[0] = only;
+    }
+  } else {
+    Lattice lattice = lattice_;
+    lattice.include(point);
+    location = locate_from(point, start_near(hint ? *hint : k_none), lattice);
+  }
+  if (hint) {
+    *hint = location.vertices[0];
+    if (location.where == Where::outside && location.edge != k_none) {
+      *hint = origin(location.edge) != k_infinite ? origin(location.edge) : target(location.edge);
+    }
+  }
+  return location;
+}
+
+HalfEdge Triangulation::start_near(VertexId hint) const {
+  return mesh_.out(hint < vertex_bound() && is_vertex(hint) ? hint : last_);
+}
+
+Location Triangulation::describe(Where where, HalfEdge h) const {
+  Location location;
+  location.where = where;
+  location.edge = h;
+  if (where != Where::outside) {
+    location.vertices[0] = origin(h);
+  }
+  if (where == Where::edge || where == Where::triangle) {
+    location.vertices[1] = target(h);
+  }
+  if (where == Where::triangle) {
+    location.vertices[2] = apex(h);
+  }
+  return location;
+}
+
+Location Triangulation::locate_from(Vec2 point, HalfEdge start, const Lattice& lattice) const {
+  if (flat_) {
+    return walk_chain(point, start, lattice);
+  }
+  // Leave a ghost over its real edge.
+  HalfEdge h = start;
+  if (is_ghost(triangle_of(h))) {
+    while (apex(h) != k_infinite) {
+      h = next(h);
+    }
+    h = twin(h);
+  }
+  // The first triangle's three edges, then the two others of each triangle: the point is beyond the one entered by.
+  int entry_side = orientation(positions_[origin(h)], positions_[target(h)], point, lattice);
+  if (entry_side < 0) {
+    h = twin(h);
+    entry_side = 1;
+  }
+  const auto most_steps = static_cast<std::uint64_t>(64 + 8 * std::sqrt(static_cast<double>(vertex_count_)));
+  for (std::uint64_t step = 0; step < most_steps; ++step) {
+    const VertexId c = apex(h);
+    if (c == k_infinite) {
+      return describe(Where::outside, h);
+    }
+    const VertexId a = origin(h);
+    const VertexId b = target(h);
+    const int right = orientation(positions_[b], positions_[c], point, lattice);
+    if (right < 0) {
+      h = twin(next(h));
+      entry_side = 1;
+      continue;
+    }
+    const int left = orientation(positions_[c], positions_[a], point, lattice);
+    if (left < 0) {
+      h = twin(previous(h));
+      entry_side = 1;
+      continue;
+    }
+    // Inside or on the border of this triangle.
+    if (entry_side > 0 && right > 0 && left > 0) {
+      return describe(Where::triangle, h);
+    }
+    if (right == 0) {
+      return left == 0         ? describe(Where::vertex, previous(h))
+             : entry_side == 0 ? describe(Where::vertex, next(h))
+                               : describe(Where::edge, next(h));
+    }
+    if (left == 0) {
+      return entry_side == 0 ? describe(Where::vertex, h) : describe(Where::edge, previous(h));
+    }
+    return describe(Where::edge, h);
+  }
+  return straight_walk(point, origin(h), lattice);
+}
+
+// From a vertex towards the point, over the edges that the segment crosses; anew from every vertex on it.
+Location Triangulation::straight_walk(Vec2 point, VertexId start, const Lattice& lattice) const {
+  VertexId source = start;
+  for (;;) {
+    const Vec2 from = positions_[source];
+    if (from == point) {
+      return describe(Where::vertex, mesh_.out(source));
+    }
+    // The triangle of the star that the direction enters.
+    HalfEdge h = mesh_.out(source);
+    const HalfEdge first = h;
+    int side_a = 0;
+    HalfEdge visible_ghost = k_none;
+    bool found = false;
+    do {
+      const VertexId a = target(h);
+      const VertexId b = apex(h);
+      if (a == k_infinite || b == k_infinite) {
+        const HalfEdge hull = a == k_infinite ? previous(h) : h;  // the real edge of the ghost
+        if (orientation(positions_[origin(hull)], positions_[target(hull)], point, lattice) > 0) {
+          visible_ghost = hull;
+        }
+      } else {
+        side_a = orientation(from, positions_[a], point, lattice);
+        found = side_a >= 0 && orientation(from, positions_[b], point, lattice) < 0;
+        if (found) {
+          break;
+        }
+      }
+      h = rotate_ccw(h);
+    } while (h != first);
+    if (!found) {
+      // Not towards a triangle, or along the last edge before a ghost.
+      h = first;
+      do {
+        const VertexId a = target(h);
+        if (a != k_infinite && orientation(from, positions_[a], point, lattice) == 0) {
+          const Vec2 at = positions_[a];
+          if (lexicographically_less(from, at) == lexicographically_less(from, point)) {
+            found = true;
+            side_a = 0;
+            break;
+          }
+        }
+        h = rotate_ccw(h);
+      } while (h != first);
+      if (!found) {
+        return describe(Where::outside, visible_ghost);
+      }
+    }
+    if (side_a == 0) {
+      const Vec2 at = positions_[target(h)];
+      const bool rising = lexicographically_less(from, point);
+      if (point == at || (rising ? lexicographically_less(at, point) : lexicographically_less(point, at))) {
+        source = target(h);
+        continue;
+      }
+      return describe(Where::edge, is_ghost(triangle_of(h)) ? twin(h) : h);
+    }
+    // Across the edges; origin(h) is right of the line, target(h) left of it.
+    h = next(h);
+    for (;;) {
+      const int side = orientation(positions_[origin(h)], positions_[target(h)], point, lattice);
+      if (side >= 0) {
+        return describe(side > 0 ? Where::triangle : Where::edge, h);
+      }
+      h = twin(h);
+      const VertexId c = apex(h);
+      if (c == k_infinite) {
+        return describe(Where::outside, h);
+      }
+      const int side_c = orientation(from, point, positions_[c], lattice);
+      if (side_c == 0) {
+        const bool rising = lexicographically_less(from, point);
+        const Vec2 at = positions_[c];
+        if (rising ? lexicographically_less(point, at) : lexicographically_less(at, point)) {
+          return describe(Where::triangle, h);
+        }
+        source = c;
+        break;
+      }
+      h = side_c > 0 ? next(h) : previous(h);
+    }
+  }
+}
+
+// All vertices on one line, in lexicographic order along the chain of edges.
+Location Triangulation::walk_chain(Vec2 point, HalfEdge start, const Lattice& lattice) const {
+  HalfEdge h = start;
+  while (apex(h) != k_infinite) {
+    h = next(h);
+  }
+  const int side = orientation(positions_[origin(h)], positions_[target(h)], point, lattice);
+  if (side != 0) {
+    return describe(Where::outside, side > 0 ? h : twin(h));
+  }
+  if (point == positions_[origin(h)]) {
+    return describe(Where::vertex, h);
+  }
+  // Along the chain towards the point, which from now on is beyond the origin of h.
+  const bool rising = lexicographically_less(positions_[origin(h)], point);
+  if (lexicographically_less(positions_[origin(h)], positions_[target(h)]) != rising) {
+    h = twin(h);
+  }
+  for (;;) {
+    const Vec2 to = positions_[target(h)];
+    if (point == to) {
+      return describe(Where::vertex, next(h));
+    }
+    if (lexicographically_less(point, to) == rising) {
+      return describe(Where::edge, h);
+    }
+    const HalfEdge ahead = next(twin(next(h)));
+    if (target(ahead) == origin(h)) {
+      return describe(Where::outside, ahead);  // out of the last vertex, back along the chain
+    }
+    h = ahead;
+  }
+}
+
+}  // namespace radvor::delaunay

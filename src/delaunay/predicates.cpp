@@ -1,0 +1,96 @@
+// What the filters cannot decide: determinants in 128-bit integers where the coordinates are on a coarse enough
+// lattice, in expansions otherwise (Shewchuk 1997).
+#include "delaunay/predicates.h"
+
+#include "delaunay/expansion.h"
+
+#ifdef __FAST_MATH__
+#error "exact predicates need IEEE arithmetic as written: compile without -ffast-math"
+#endif
+#ifdef __clang__
+#pragma STDC FP_CONTRACT OFF
+#endif
+
+namespace radvor::delaunay {
+
+void Lattice::refine(double x) noexcept {
+  // The lowest set bit of the mantissa.
+  int exponent = 0;
+  auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(x, &exponent), 53));
+  exponent -= 53;
+  while ((mantissa & 1) == 0) {
+    mantissa >>= 1;
+    ++exponent;
+  }
+  per_unit_ = std::ldexp(1.0, -exponent);
+  orientation_limit_ = std::ldexp(1.0, 53 + 2 * exponent);
+  in_circle_limit_ = std::ldexp(1.0, 53 + 4 * exponent);
+}
+
+namespace exact {
+
+using expansion::Expansion;
+
+namespace {
+
+struct Offset {
+  Expansion<2> x, y;
+  Offset(Vec2 a, Vec2 b)
+      : x(expansion::make(expansion::two_difference(a.x, b.x))),
+        y(expansion::make(expansion::two_difference(a.y, b.y))) {}
+};
+
+Expansion<16> cross(const Offset& a, const Offset& b) {
+  return expansion::difference(expansion::multiplied(a.x, b.y), expansion::multiplied(a.y, b.x));
+}
+
+// minor * (a.x^2 + a.y^2)
+Expansion<512> lifted(const Offset& a, const Expansion<16>& minor) {
+  return expansion::sum(expansion::multiplied(expansion::multiplied(minor, a.x), a.x),
+                        expansion::multiplied(expansion::multiplied(minor, a.y), a.y));
+}
+
+}  // namespace
+
+int orientation(Vec2 a, Vec2 b, Vec2 c) {
+  return cross(Offset(a, c), Offset(b, c)).sign();
+}
+
+int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+  const Offset ad(a, d), bd(b, d), cd(c, d);
+  return expansion::sum(expansion::sum(lifted(ad, cross(bd, cd)), lifted(bd, cross(cd, ad))), lifted(cd, cross(ad, bd)))
+      .sign();
+}
+
+}  // namespace exact
+
+namespace detail {
+
+int in_circle_far(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice) {
+  // Offsets below 2^30 units: lifts are below 2^61, minors below 2^61, so that the sum stays below 2^125. A difference
+  // of that few units is exact.
+  constexpr double k_most_units = 0x1p30;
+  const double scale = lattice.per_unit();
+  const double offsets[6] = {(a.x - d.x) * scale, (a.y - d.y) * scale, (b.x - d.x) * scale,
+                             (b.y - d.y) * scale, (c.x - d.x) * scale, (c.y - d.y) * scale};
+  bool small = true;
+  for (const double offset : offsets) {
+    small &= std::fabs(offset) < k_most_units;
+  }
+  if (!small) {
+    return exact::in_circle(a, b, c, d);
+  }
+  std::int64_t i[6];
+  for (int k = 0; k < 6; ++k) {
+    i[k] = static_cast<std::int64_t>(offsets[k]);
+  }
+  __extension__ using Wide = __int128;
+  const Wide determinant = static_cast<Wide>(i[0] * i[0] + i[1] * i[1]) * (i[2] * i[5] - i[4] * i[3]) +
+                           static_cast<Wide>(i[2] * i[2] + i[3] * i[3]) * (i[4] * i[1] - i[0] * i[5]) +
+                           static_cast<Wide>(i[4] * i[4] + i[5] * i[5]) * (i[0] * i[3] - i[2] * i[1]);
+  return (determinant > 0) - (determinant < 0);
+}
+
+}  // namespace detail
+
+}  // namespace radvor::delaunay

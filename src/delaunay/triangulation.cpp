@@ -1,0 +1,139 @@
+// The parts of the triangulation that are neither insertion, removal, constraints nor questions.
+#include "delaunay/triangulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+
+namespace radvor::delaunay {
+
+Triangulation::Triangulation(std::pmr::memory_resource* memory)
+    : memory_(memory),
+      mesh_(memory),
+      positions_(memory),
+      values_(memory),
+      changed_(memory),
+      stack_(memory),
+      cavity_(memory),
+      boundary_(memory) {}
+
+bool Triangulation::is_vertex(VertexId vertex) const {
+  return vertex < positions_.size() && !std::isnan(positions_[vertex].x);
+}
+
+void Triangulation::require_vertex(VertexId vertex) const {
+  if (!is_vertex(vertex)) {
+    throw Error(ErrorCode::invalid_argument, "there is no vertex %u", vertex);
+  }
+}
+
+VertexId Triangulation::only_vertex() const {
+  VertexId vertex = 0;
+  while (!is_vertex(vertex)) {
+    ++vertex;
+  }
+  return vertex;
+}
+
+std::uint32_t Triangulation::triangle_count() const {
+  // A sphere of n + 1 vertices has 2 n - 2 triangles; as many are ghosts as the hull has edges.
+  if (flat_) {
+    return 0;
+  }
+  std::uint32_t hull_size = 0;
+  const HalfEdge first = hull_edge();
+  HalfEdge h = first;
+  do {
+    ++hull_size;
+    h = hull_next(h);
+  } while (h != first);
+  return mesh_.live_count() - hull_size;
+}
+
+HalfEdge Triangulation::find_edge(VertexId a, VertexId b) const {
+  const HalfEdge first = mesh_.out(a);
+  if (first == k_none) {
+    return k_none;
+  }
+  HalfEdge h = first;
+  do {
+    if (target(h) == b) {
+      return h;
+    }
+    h = rotate_ccw(h);
+  } while (h != first);
+  return k_none;
+}
+
+std::uint8_t Triangulation::constraint_flags(VertexId a, VertexId b) const {
+  if (!is_vertex(a) || !is_vertex(b)) {
+    return 0;
+  }
+  const HalfEdge h = find_edge(a, b);
+  return h == k_none ? std::uint8_t{0} : mesh_.constraint(h);
+}
+
+std::uint32_t Triangulation::constraint_count() const {
+  std::uint32_t sides = 0;
+  for (TriangleId t = 0; t < mesh_.record_count(); ++t) {
+    if (!mesh_.is_free(t)) {
+      for (const std::uint8_t flags : mesh_.triangle(t).constraint) {
+        sides += flags != 0;
+      }
+    }
+  }
+  return sides / 2;
+}
+
+HalfEdge Triangulation::hull_edge() const {
+  if (vertex_count_ < 2) {
+    return k_none;
+  }
+  // A walk in one direction ends in a ghost: rotate to the edge that leads farthest up, and so on.
+  VertexId top = last_;
+  for (bool rising = true; rising;) {
+    rising = false;
+    VertexId higher = top;
+    for_each_neighbour(top, [&](VertexId neighbour) {
+      if (lexicographically_less(positions_[higher], positions_[neighbour])) {
+        higher = neighbour;
+        rising = true;
+      }
+    });
+    top = higher;
+  }
+  HalfEdge h = mesh_.out(top);  // the greatest of all vertices is on the hull
+  while (!is_ghost(triangle_of(h))) {
+    h = rotate_ccw(h);
+  }
+  while (apex(h) != k_infinite) {
+    h = next(h);
+  }
+  return twin(h);
+}
+
+// The ghost of a -> b (with the hull on the left) is (b, a, infinite); the next hull edge starts at b.
+HalfEdge Triangulation::hull_next(HalfEdge hull) const {
+  const HalfEdge ghost = twin(hull);              // b -> a
+  const HalfEdge beside = twin(previous(ghost));  // b -> infinite, of the ghost (c, b, infinite)
+  return twin(previous(beside));
+}
+
+void Triangulation::make_report_unique() {
+  std::sort(changed_.begin(), changed_.end());
+  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+  changed_.erase(std::remove_if(changed_.begin(), changed_.end(), [&](VertexId v) { return !is_vertex(v); }),
+                 changed_.end());
+}
+
+std::array<double, 3> Triangulation::barycentric(TriangleId t, Vec2 point) const {
+  const auto& v = mesh_.triangle(t).vertex;
+  const Vec2 a = positions_[v[0]] - point, b = positions_[v[1]] - point, c = positions_[v[2]] - point;
+  const double weight_a = cross(b, c), weight_b = cross(c, a), weight_c = cross(a, b);
+  const double sum = weight_a + weight_b + weight_c;
+  return {weight_a / sum, weight_b / sum, weight_c / sum};
+}
+
+}  // namespace radvor::delaunay
