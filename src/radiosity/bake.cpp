@@ -10,6 +10,7 @@
 #include "radiosity/direct_light.h"
 #include "radiosity/fate.h"
 #include "radiosity/links.h"
+#include "radiosity/occluder_tree.h"
 #include "radiosity/receiver.h"
 #include "radiosity/shooting_tree.h"
 #include "radiosity/tracer.h"
@@ -48,6 +49,7 @@ struct Bake::State {
   std::optional<Facets> facets;
   std::optional<Surface> surface;
   std::pmr::vector<std::uint32_t> occluders;  // welded triangle of each triangle that blocks
+  std::optional<OccluderTree> occluder_tree;  // absent where it is turned off
   Visibility* visibility = nullptr;
   std::optional<DirectLight> light;
   std::optional<ShootingTree> tree;
@@ -120,7 +122,10 @@ Bake::State::State(Scene given, const BakeOptions& wanted, const VisibilityMaker
       corners.insert(corners.end(), triangle.vertices.begin(), triangle.vertices.end());
     }
   }
-  light.emplace(scene, *welded, *facets, options.tolerance, host);
+  if ((options.disable & Disable::clear_shafts) == 0) {
+    occluder_tree.emplace(Occluders{welded->positions, corners}, &host.memory);
+  }
+  light.emplace(scene, *welded, *facets, occluder_tree ? &*occluder_tree : nullptr, options.tolerance, host);
 
   const auto samples = surface->samples();
   direct.assign(samples.size(), Color(0.0));

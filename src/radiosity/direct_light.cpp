@@ -17,9 +17,9 @@ bool is_dark(const Color& color) {
 
 }  // namespace
 
-DirectLight::DirectLight(const Scene& scene, const WeldedScene& welded, const Facets& facets, double tolerance,
-                         Host& host)
-    : punctual_(&host.memory), emitters_(&host.memory), emitting_facets_(&host.memory) {
+DirectLight::DirectLight(const Scene& scene, const WeldedScene& welded, const Facets& facets,
+                         const OccluderTree* occluders, double tolerance, Host& host)
+    : occluders_(occluders), punctual_(&host.memory), emitters_(&host.memory), emitting_facets_(&host.memory) {
   // Twice the diameter of the bounds reaches out of them from anywhere inside; a scene of one point still has a length.
   far_ = std::max(2 * glm::length(welded.high - welded.low), 1e-3);
 
@@ -88,7 +88,7 @@ Color DirectLight::irradiance(std::uint32_t source, const Receiver& receiver, Tr
   Color sum(0.0);
   const EmitterRange range = emitting_facets_[source];
   for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
-    sum += irradiance_of_emitter(emitters_[i], receiver, tracer, accuracy_);
+    sum += irradiance_of_emitter(emitters_[i], receiver, tracer, accuracy_, occluders_);
   }
   return sum;
 }

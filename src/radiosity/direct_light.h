@@ -7,6 +7,7 @@
 
 #include "base/host.h"
 #include "radiosity/emitter.h"
+#include "radiosity/occluder_tree.h"
 #include "radiosity/receiver.h"
 #include "radiosity/sky.h"
 #include "radiosity/tracer.h"
@@ -18,7 +19,9 @@ namespace radvor {
 
 class DirectLight {
  public:
-  DirectLight(const Scene& scene, const WeldedScene& welded, const Facets& facets, double tolerance, Host& host);
+  /// With `occluders`, which must outlive this, surfaces that emit are seen past them exactly (emitter.h).
+  DirectLight(const Scene& scene, const WeldedScene& welded, const Facets& facets, const OccluderTree* occluders,
+              double tolerance, Host& host);
 
   /// A source is one light, the sky (all skies together), or the emitting triangles of one facet and side. Dark ones
   /// are none.
@@ -38,6 +41,7 @@ class DirectLight {
     std::uint32_t first, count;
   };
 
+  const OccluderTree* occluders_;
   std::pmr::vector<Light> punctual_;
   std::pmr::vector<Emitter> emitters_;
   std::pmr::vector<EmitterRange> emitting_facets_;

@@ -1,9 +1,11 @@
 #include "radiosity/emitter.h"
 
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include "radiosity/form_factor.h"
+#include "radiosity/visible_polygon.h"
 
 namespace radvor {
 
@@ -25,6 +27,7 @@ Vec3 centre(const std::array<Vec3, 3>& t) {
   return (t[0] + t[1] + t[2]) / 3.0;
 }
 
+constexpr std::size_t k_max_clipped = 64;  // occluders; rays where there are more
 constexpr int k_max_depth = 7;
 constexpr std::size_t k_stack = 3 * k_max_depth + 4;
 
@@ -61,10 +64,56 @@ void look(const Emitter& emitter, const Receiver& receiver, Tracer& tracer, std:
   }
 }
 
+// The part of a triangle above the receiver's horizon: 3 or 4 corners, or none.
+std::size_t above_horizon(const Receiver& receiver, const std::array<Vec3, 3>& triangle, std::array<Vec3, 4>& part) {
+  std::size_t size = 0;
+  Vec3 last = triangle[2];
+  double last_height = glm::dot(last - receiver.point, receiver.normal);
+  for (const Vec3& corner : triangle) {
+    const double height = glm::dot(corner - receiver.point, receiver.normal);
+    if ((last_height < 0 && height > 0) || (last_height > 0 && height < 0)) {
+      part[size++] = last + (corner - last) * (last_height / (last_height - height));
+    }
+    if (height >= 0) {
+      part[size++] = corner;
+    }
+    last = corner;
+    last_height = height;
+  }
+  return size;
+}
+
+// The form factor of what is seen of the emitter, by clipping; none where too much stands in the way.
+std::optional<double> clipped_form_factor(const Emitter& emitter, const Receiver& receiver, double whole,
+                                          Tracer& tracer, const OccluderTree& occluders) {
+  std::array<Vec3, 4> corners;
+  const std::span polygon(corners.data(), above_horizon(receiver, emitter.corners, corners));
+  std::array<std::uint32_t, k_max_clipped> found;
+  const auto count = occluders.between(receiver.lifted, polygon, emitter.normal, tracer.lift(), found);
+  if (!count) {
+    return std::nullopt;
+  }
+  if (*count == 0) {
+    ++tracer.counters.skipped_clear;
+    return whole;
+  }
+  VisiblePolygon visible(receiver.lifted, polygon, emitter.normal, tracer.lift());
+  for (std::size_t i = 0; i < *count && !visible.dark(); ++i) {
+    if (!visible.subtract(occluders.triangle(found[i]))) {
+      return std::nullopt;
+    }
+  }
+  if (visible.whole()) {
+    return whole;
+  }
+  tracer.counters.form_factors += visible.piece_count();
+  return visible.form_factor(receiver.point, receiver.normal);
+}
+
 }  // namespace
 
 Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tracer& tracer,
-                            const EmitterAccuracy& accuracy) {
+                            const EmitterAccuracy& accuracy, const OccluderTree* occluders) {
   const double whole = polygon_form_factor(receiver.point, receiver.normal, emitter.corners, emitter.normal);
   ++tracer.counters.form_factors;
   if (whole <= 0) {
@@ -74,6 +123,11 @@ Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tr
   // Form factors relative to the mean irradiance: where rays disagree, a part stays whole when it is worth less than
   // this. A penumbra has some 2^depth such parts with independent errors, so far less than their sum is lost.
   const double may_stay = 0.25 * accuracy.tolerance * accuracy.mean_irradiance / luminance(emitter.radiosity);
+  if (occluders != nullptr && whole > may_stay) {
+    if (const auto seen = clipped_form_factor(emitter, receiver, whole, tracer, *occluders)) {
+      return emitter.radiosity * *seen;
+    }
+  }
   double visible = 0;
   std::array<Part, k_stack> stack;  // parts to be quartered
   std::size_t size = 0;

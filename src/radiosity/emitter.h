@@ -1,11 +1,12 @@
-// Surfaces that emit, as light sources: the exact form factor of each triangle, times visibility found by splitting the
-// triangle where rays disagree.
+// Surfaces that emit, as light sources: the exact form factor of what the receiver sees of each triangle. Few occluders
+// are clipped away exactly; where there are many the triangle is split where rays disagree.
 #pragma once
 
 #include <array>
 #include <memory_resource>
 #include <vector>
 
+#include "radiosity/occluder_tree.h"
 #include "radiosity/receiver.h"
 #include "radiosity/tracer.h"
 
@@ -23,10 +24,11 @@ struct EmitterAccuracy {
   double tolerance = 0.02;
 };
 
-/// Irradiance from one emitter. A part of it whose rays disagree is quartered until what is at stake is under the
-/// tolerance's share of the mean irradiance; the last parts take the share of their points that is seen, weighted by
-/// the kernel. Points under the receiver's horizon are not there, rather than blocked.
+/// Irradiance from one emitter. With `occluders`, those between it and the receiver are clipped away, which is exact to
+/// rounding, while they are few. Without, or where they are many, rays: a part of it whose rays disagree is quartered
+/// until what is at stake is under the tolerance's share of the mean irradiance; the last parts take the share of their
+/// points that is seen, weighted by the kernel. Points under the receiver's horizon are not there, rather than blocked.
 Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tracer& tracer,
-                            const EmitterAccuracy& accuracy);
+                            const EmitterAccuracy& accuracy, const OccluderTree* occluders = nullptr);
 
 }  // namespace radvor
