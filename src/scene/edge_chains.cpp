@@ -103,20 +103,20 @@ double EdgeChains::parameter(const Segment& segment, std::uint32_t vertex) const
   return dot(tolerance_.positions[vertex] - a, side) / squared_length(side);
 }
 
-void EdgeChains::add_triangle(const std::array<std::uint32_t, 3>& vertices, int apex) {
-  for (int i = 0; i < 3; ++i) {
-    const std::uint32_t from = vertices[static_cast<std::size_t>((i + 1) % 3)];
-    const std::uint32_t to = vertices[static_cast<std::size_t>((i + 2) % 3)];
-    const std::uint32_t segment = segment_between(from, to);
-    const std::uint32_t opposite = vertices[static_cast<std::size_t>(i)];
-    if (i == apex) {
-      apexes_.push_back({segment, {opposite, parameter(segments_[segment], opposite)}});
+std::array<std::uint32_t, 3> EdgeChains::add_triangle(const std::array<std::uint32_t, 3>& vertices, int apex) {
+  std::array<std::uint32_t, 3> segments;
+  for (std::size_t i = 0; i < 3; ++i) {
+    segments[i] = segment_between(vertices[i], vertices[(i + 1) % 3]);
+    const std::uint32_t opposite = vertices[(i + 2) % 3];
+    if (static_cast<int>((i + 2) % 3) == apex) {
+      apexes_.push_back({segments[i], {opposite, parameter(segments_[segments[i]], opposite)}, true});
     }
     if (!in_tree_[opposite]) {
       in_tree_[opposite] = true;
       tree_vertices_.push_back(opposite);
     }
   }
+  return segments;
 }
 
 void EdgeChains::plant_tree() {
@@ -150,24 +150,39 @@ void EdgeChains::find_inside(std::uint32_t index, std::pmr::vector<Found>& found
                 // A vertex that nearly coincides with an end is that end's twin, not inside.
                 const double to_end = std::min(along, 1 - along) * side_length;
                 if (to_end > 2 * touching && squared_length(off) <= touching * touching) {
-                  found.push_back({index, {vertex, along}});
+                  found.push_back({index, {vertex, along}, false});
                 }
               });
 }
 
-// Of one segment, in no order and perhaps twice.
+// Too near each other to be told apart along a segment.
+bool EdgeChains::are_twins(std::uint32_t segment, std::uint32_t a, std::uint32_t b) const {
+  const double near = 2 * tolerance_.touching(segments_[segment].a, segments_[segment].b, a);
+  return squared_length(tolerance_.positions[a] - tolerance_.positions[b]) <= near * near;
+}
+
+// Of one segment, in no order and perhaps twice. Of twins one is enough, and twins of an apex would part the segment
+// from the sides of its sliver.
 void EdgeChains::lay_inside(std::span<Found> found) {
   const auto& positions = tolerance_.positions;
   std::sort(found.begin(), found.end(), [&](const Found& a, const Found& b) {
-    return a.inside.along != b.inside.along ? a.inside.along < b.inside.along
-                                            : a.inside.vertex != b.inside.vertex &&
-                                                  lies_before(positions[a.inside.vertex], positions[b.inside.vertex]);
+    if (a.inside.along != b.inside.along) {
+      return a.inside.along < b.inside.along;
+    }
+    return a.inside.vertex != b.inside.vertex ? lies_before(positions[a.inside.vertex], positions[b.inside.vertex])
+                                              : a.apex > b.apex;
   });
-  Segment& segment = segments_[found.front().segment];
+  const std::uint32_t index = found.front().segment;
+  Segment& segment = segments_[index];
   segment.first_inside = static_cast<std::uint32_t>(inside_.size());
-  for (const Found& one : found) {
-    if (segment.inside_count == 0 || inside_.back().vertex != one.inside.vertex) {
-      inside_.push_back(one.inside);
+  auto next_apex = found.begin();
+  for (auto one = found.begin(); one != found.end(); ++one) {
+    next_apex = std::find_if(std::max(one, next_apex), found.end(), [](const Found& f) { return f.apex; });
+    const bool after_twin = segment.inside_count > 0 && are_twins(index, one->inside.vertex, inside_.back().vertex);
+    const bool before_twin = next_apex != found.end() && are_twins(index, one->inside.vertex, next_apex->inside.vertex);
+    const bool repeated = segment.inside_count > 0 && inside_.back().vertex == one->inside.vertex;
+    if (one->apex ? !repeated : !after_twin && !before_twin) {
+      inside_.push_back(one->inside);
       ++segment.inside_count;
     }
   }
@@ -252,9 +267,9 @@ void EdgeChains::refuse(std::uint32_t index, std::uint32_t vertex) {
   }
 }
 
-void EdgeChains::chain(std::uint32_t from, std::uint32_t to, std::pmr::vector<Link>& links) {
-  const std::uint32_t whole = segment_between(from, to);
-  stack_.assign(1, {from, to, whole, whole});
+void EdgeChains::chain(std::uint32_t whole, std::uint32_t start_of_whole, std::pmr::vector<Link>& links) {
+  const Segment& outer = segments_[whole];
+  stack_.assign(1, {start_of_whole, outer.a == start_of_whole ? outer.b : outer.a, whole, whole});
   while (!stack_.empty()) {
     const Link link = stack_.back();
     stack_.pop_back();

@@ -35,8 +35,9 @@ class EdgeChains {
  public:
   EdgeChains(const Tolerance& tolerance, std::pmr::memory_resource* memory);
 
-  /// Adds the segments of a triangle, kept or dropped; a dropped one lays its apex (0..2) into its longest side.
-  void add_triangle(const std::array<std::uint32_t, 3>& vertices, int apex = -1);
+  /// Adds the segments of a triangle, kept or dropped, and returns them, that of side i from corner i to the next; a
+  /// dropped triangle lays its apex (0..2) into its longest side.
+  std::array<std::uint32_t, 3> add_triangle(const std::array<std::uint32_t, 3>& vertices, int apex = -1);
 
   /// Finds the vertices of added triangles that lie inside segments, in the segments that arise from these too, until
   /// none is left.
@@ -48,8 +49,10 @@ class EdgeChains {
     std::uint32_t segment;  ///< the same for all links between these two vertices
     std::uint32_t parent;   ///< the segment whose division put `from` there; its own where it is the corner
   };
-  /// Appends the edges that make up the segment of an added triangle, in order.
-  void chain(std::uint32_t from, std::uint32_t to, std::pmr::vector<Link>& links);
+  /// Whether some vertex lies inside.
+  bool is_divided(std::uint32_t segment) const { return segments_[segment].inside_count > 0; }
+  /// Appends the edges that make up a segment, from one of its ends to the other.
+  void chain(std::uint32_t segment, std::uint32_t from, std::pmr::vector<Link>& links);
 
   /// Takes back that a vertex lies inside a segment: a triangle's outline would touch itself there. After all refusals
   /// split() must run again.
@@ -71,6 +74,7 @@ class EdgeChains {
   struct Found {
     std::uint32_t segment;
     Inside inside;
+    bool apex;  ///< of a dropped sliver: what closes over it needs it
   };
 
   std::uint32_t segment_between(std::uint32_t a, std::uint32_t b);
@@ -78,6 +82,7 @@ class EdgeChains {
   bool is_smaller(std::uint32_t from, std::uint32_t to, const Segment& than) const;
   void plant_tree();
   void find_inside(std::uint32_t segment, std::pmr::vector<Found>& found) const;
+  bool are_twins(std::uint32_t segment, std::uint32_t a, std::uint32_t b) const;
   void lay_inside(std::span<Found> found);
   void divide(std::uint32_t segment);
 

@@ -12,6 +12,7 @@ namespace radvor {
 namespace {
 
 using Corners = std::array<std::uint32_t, 3>;
+using Sides = std::pmr::vector<std::array<std::uint32_t, 3>>;  // segments of the kept triangles, after their corners
 
 // Turned so that the smallest vertex comes first: equal for equal triangles with the same front.
 Corners turned(const Corners& v) {
@@ -36,13 +37,15 @@ void check_limits(const Scene& scene) {
 }
 
 // Fills welded.triangles with what is no degenerate and no duplicate, and the chains with all segments that matter.
-void keep_triangles(const Scene& scene, const Tolerance& tolerance, EdgeChains& chains, WeldedScene& welded,
-                    std::pmr::memory_resource* memory) {
+Sides keep_triangles(const Scene& scene, const Tolerance& tolerance, EdgeChains& chains, WeldedScene& welded,
+                     std::pmr::memory_resource* memory) {
+  Sides sides(memory);
   std::size_t count = 0;
   for (const Mesh& mesh : scene.meshes) {
     count += mesh.indices.size() / 3;
   }
   welded.triangles.reserve(count);
+  sides.reserve(count);
   IndexTable known(count, memory);
   for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
     const Mesh& mesh = scene.meshes[m];
@@ -79,29 +82,30 @@ void keep_triangles(const Scene& scene, const Tolerance& tolerance, EdgeChains& 
         continue;
       }
       welded.triangles.push_back({vertices, corners, m, t, mesh.triangle_materials[t]});
-      chains.add_triangle(vertices);
+      sides.push_back(chains.add_triangle(vertices));
     }
   }
+  return sides;
 }
 
-// A link of a triangle's outline and the side it belongs to.
-struct Side {
-  EdgeChains::Link link;
-  std::uint8_t side;
-};
-
+// The outline of a triangle as links.
 class Outline {
  public:
-  Outline(EdgeChains& chains, std::size_t vertex_count, std::pmr::memory_resource* memory)
-      : chains_(chains), links_(memory), sides_(memory), last_seen_(vertex_count, k_none, memory) {}
+  struct Part {
+    EdgeChains::Link link;
+    std::uint8_t side;
+  };
 
-  void trace(const Triangle& triangle) {
-    sides_.clear();
+  Outline(EdgeChains& chains, std::size_t vertex_count, std::pmr::memory_resource* memory)
+      : chains_(chains), links_(memory), parts_(memory), last_seen_(vertex_count, k_none, memory) {}
+
+  void trace(const Triangle& triangle, const std::array<std::uint32_t, 3>& sides) {
+    parts_.clear();
     for (std::uint8_t side = 0; side < 3; ++side) {
       links_.clear();
-      chains_.chain(triangle.vertices[side], triangle.vertices[(side + 1u) % 3], links_);
+      chains_.chain(sides[side], triangle.vertices[side], links_);
       for (const auto& link : links_) {
-        sides_.push_back({link, side});
+        parts_.push_back({link, side});
       }
     }
   }
@@ -109,65 +113,65 @@ class Outline {
   /// Whether the outline meets itself in some vertex. Takes that vertex back from all sides where it is no corner.
   bool untie(const Triangle& triangle) {
     bool tied = false;
-    if (sides_.size() == 3) {
-      return false;
+    for (std::uint32_t i = 0; i < parts_.size(); ++i) {
+      last_seen_[parts_[i].link.from] = i;
     }
-    for (std::uint32_t i = 0; i < sides_.size(); ++i) {
-      last_seen_[sides_[i].link.from] = i;
-    }
-    for (std::uint32_t i = 0; i < sides_.size(); ++i) {
-      const std::uint32_t vertex = sides_[i].link.from;
+    for (std::uint32_t i = 0; i < parts_.size(); ++i) {
+      const std::uint32_t vertex = parts_[i].link.from;
       if (last_seen_[vertex] == i) {
         continue;
       }
       tied = true;
-      for (const Side& side : sides_) {
-        if (side.link.from == vertex && triangle.vertices[side.side] != vertex) {
-          chains_.refuse(side.link.parent, vertex);
+      for (const Part& part : parts_) {
+        if (part.link.from == vertex && triangle.vertices[part.side] != vertex) {
+          chains_.refuse(part.link.parent, vertex);
         }
       }
     }
     return tied;
   }
-  std::span<const Side> sides() const { return sides_; }
+  std::span<const Part> parts() const { return parts_; }
 
  private:
   EdgeChains& chains_;
   std::pmr::vector<EdgeChains::Link> links_;
-  std::pmr::vector<Side> sides_;
+  std::pmr::vector<Part> parts_;
   std::pmr::vector<std::uint32_t> last_seen_;
 };
 
 // A vertex may lie on two sides of one triangle: near a sharp corner, or in a triangle not much higher than what counts
 // as touching. It stays off these sides, or the triangle would fall apart.
-void untie_outlines(EdgeChains& chains, const WeldedScene& welded, const Jobs& jobs,
+void untie_outlines(EdgeChains& chains, const Sides& sides, const WeldedScene& welded, const Jobs& jobs,
                     std::pmr::memory_resource* memory) {
   Outline outline(chains, welded.positions.size(), memory);
   for (bool tied = true; tied;) {
     tied = false;
-    for (const Triangle& triangle : welded.triangles) {
-      outline.trace(triangle);
-      tied = outline.untie(triangle) || tied;
+    for (std::size_t t = 0; t < sides.size(); ++t) {
+      if (std::ranges::any_of(sides[t], [&](std::uint32_t segment) { return chains.is_divided(segment); })) {
+        outline.trace(welded.triangles[t], sides[t]);
+        tied = outline.untie(welded.triangles[t]) || tied;
+      }
     }
     chains.split(jobs);  // what the changed segments consist of now
   }
 }
 
-void join_by_edges(EdgeChains& chains, WeldedScene& welded, std::pmr::memory_resource* memory) {
+void join_by_edges(EdgeChains& chains, const Sides& sides, WeldedScene& welded, std::pmr::memory_resource* memory) {
   std::pmr::vector<std::uint32_t> edge_of_segment(chains.segment_count(), k_none, memory);
   std::pmr::vector<bool> counted(welded.positions.size(), false, memory);
   Outline outline(chains, welded.positions.size(), memory);
+  welded.edges.reserve(chains.segment_count());
   welded.uses_by_triangle.reserve(3 * welded.triangles.size());
   welded.first_use.reserve(welded.triangles.size() + 1);
   for (std::uint32_t t = 0; t < welded.triangles.size(); ++t) {
     const Triangle& triangle = welded.triangles[t];
-    outline.trace(triangle);
+    outline.trace(triangle, sides[t]);
     welded.first_use.push_back(static_cast<std::uint32_t>(welded.uses_by_triangle.size()));
-    for (const auto& [link, side] : outline.sides()) {
+    for (const auto& [link, side] : outline.parts()) {
       std::uint32_t& edge = edge_of_segment[link.segment];
-      const bool ordered = lies_before(welded.positions[link.from], welded.positions[link.to]);
       if (edge == k_none) {
         edge = static_cast<std::uint32_t>(welded.edges.size());
+        const bool ordered = lies_before(welded.positions[link.from], welded.positions[link.to]);
         welded.edges.push_back(ordered ? Edge{link.from, link.to} : Edge{link.to, link.from});
       }
       if (link.from != triangle.vertices[side] && !counted[link.from]) {
@@ -259,10 +263,10 @@ WeldedScene weld(const Scene& scene, double weld_distance, Host& host) {
   }
   const Tolerance tolerance{welded.positions, welded.precision, weld_distance};
   EdgeChains chains(tolerance, memory);
-  keep_triangles(scene, tolerance, chains, welded, memory);
+  const Sides sides = keep_triangles(scene, tolerance, chains, welded, memory);
   chains.split(host.jobs);
-  untie_outlines(chains, welded, host.jobs, memory);
-  join_by_edges(chains, welded, memory);
+  untie_outlines(chains, sides, welded, host.jobs, memory);
+  join_by_edges(chains, sides, welded, memory);
   group_uses(welded);
   find_bounds(welded);
   report(welded, host.log);

@@ -1,8 +1,12 @@
 // What must hold for every welded scene and its facets, checked by brute force where that is affordable.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "scene/edge_chains.h"
 #include "scene/facets.h"
@@ -17,7 +21,7 @@ inline std::string audit(const WeldedScene& w) {
   for (std::uint32_t t = 0; t < w.triangles.size(); ++t) {
     const auto outline = w.uses_of_triangle(t);
     std::uint32_t at = w.triangles[t].vertices[0];
-    std::set<std::uint32_t> seen;
+    std::vector<std::uint32_t> seen;
     std::uint8_t side = 0;
     for (const EdgeUse& use : outline) {
       const Edge& edge = w.edges[use.edge];
@@ -30,9 +34,10 @@ inline std::string audit(const WeldedScene& w) {
       if (use.side != side) {
         return "a use of triangle " + std::to_string(t) + " names the wrong side";
       }
-      if (!seen.insert(at).second) {
+      if (std::ranges::find(seen, at) != seen.end()) {
         return "the outline of triangle " + std::to_string(t) + " touches itself";
       }
+      seen.push_back(at);
       at = use.forward ? edge.b : edge.a;
     }
     if (at != w.triangles[t].vertices[0] || side != 2) {
@@ -43,15 +48,13 @@ inline std::string audit(const WeldedScene& w) {
   if (uses != w.uses_by_triangle.size() || uses != w.uses_of_edge.size()) {
     return "uses are lost";
   }
-  std::set<std::pair<std::uint32_t, std::uint32_t>> ends;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;
   for (std::uint32_t e = 0; e < w.edges.size(); ++e) {
     const Edge& edge = w.edges[e];
     if (!lies_before(w.positions[edge.a], w.positions[edge.b])) {
       return "edge " + std::to_string(e) + " is not ordered by position";
     }
-    if (!ends.insert({edge.a, edge.b}).second) {
-      return "edge " + std::to_string(e) + " exists twice";
-    }
+    ends.emplace_back(edge.a, edge.b);
     if (w.uses_at_edge(e).empty()) {
       return "edge " + std::to_string(e) + " has no use";
     }
@@ -60,6 +63,10 @@ inline std::string audit(const WeldedScene& w) {
         return "edge " + std::to_string(e) + " lists a use of another";
       }
     }
+  }
+  std::ranges::sort(ends);
+  if (std::ranges::adjacent_find(ends) != ends.end()) {
+    return "an edge exists twice";
   }
   return {};
 }
@@ -103,11 +110,11 @@ inline std::string audit(const WeldedScene& w, const Facets& f) {
   std::vector<int> owners(w.triangles.size(), 0);
   for (std::uint32_t i = 0; i < f.facets.size(); ++i) {
     const Facet& facet = f.facets[i];
-    const std::string name = "facet " + std::to_string(i);
+    const auto name = [&] { return "facet " + std::to_string(i); };
     const Frame& frame = facet.frame;
     if (std::abs(length(frame.u) - 1) > 1e-14 || std::abs(length(frame.normal) - 1) > 1e-14 ||
         length(cross(frame.u, frame.v) - frame.normal) > 1e-14 || std::abs(dot(frame.u, frame.normal)) > 1e-14) {
-      return name + " has no orthonormal frame";
+      return name() + " has no orthonormal frame";
     }
     double area = 0;
     double extent = 0;
@@ -115,7 +122,7 @@ inline std::string audit(const WeldedScene& w, const Facets& f) {
       ++owners[t];
       if (f.facet_of_triangle[t] != i || w.triangles[t].mesh != facet.mesh ||
           w.triangles[t].material != facet.material) {
-        return name + " has a triangle that is not its own";
+        return name() + " has a triangle that is not its own";
       }
       Vec2 p[3];
       for (int k = 0; k < 3; ++k) {
@@ -123,27 +130,27 @@ inline std::string audit(const WeldedScene& w, const Facets& f) {
         p[k] = frame.to_plane(corner);
         extent = std::max({extent, std::abs(p[k].x), std::abs(p[k].y)});
         if (std::fmod(p[k].x, frame.unit) != 0 || std::fmod(p[k].y, frame.unit) != 0) {
-          return name + " is not on its grid";
+          return name() + " is not on its grid";
         }
       }
       const double twice = cross(p[1] - p[0], p[2] - p[0]);
       if (!(twice > 0)) {
-        return name + " has a triangle that does not face its front";
+        return name() + " has a triangle that does not face its front";
       }
       area += 0.5 * twice;
       for (const Vec3& normal : f.corner_normals[t]) {
         const Vec3 front = cross(w.positions[w.triangles[t].vertices[1]] - w.positions[w.triangles[t].vertices[0]],
                                  w.positions[w.triangles[t].vertices[2]] - w.positions[w.triangles[t].vertices[0]]);
         if (!(std::abs(length(normal) - 1) < 1e-12) || dot(normal, front) < -1e-9 * length(front)) {
-          return name + " has a bad shading normal";
+          return name() + " has a bad shading normal";
         }
       }
     }
     if (extent > frame.unit * 0x1p40 || extent < frame.unit * 0x1p38) {
-      return name + " has the wrong unit";
+      return name() + " has the wrong unit";
     }
     if (std::abs(area - facet.area) > 1e-6 * facet.area + 1e-10 * extent * extent) {
-      return name + " has the wrong area";
+      return name() + " has the wrong area";
     }
   }
   for (std::size_t t = 0; t < owners.size(); ++t) {
