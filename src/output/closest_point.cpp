@@ -2,120 +2,132 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <vector>
 
 namespace radvor {
 namespace {
 
-constexpr double k_least_facing = 0.01;  // cosine
-
-std::pmr::vector<Box> boxes_of(const std::pmr::vector<ClosestPoint::Triangle>& triangles,
+std::pmr::vector<Box> boxes_of(std::span<const Vec3> positions, std::span<const std::uint32_t> corners,
                                std::pmr::memory_resource* memory) {
-  std::pmr::vector<Box> boxes(triangles.size(), memory);
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    for (const Vec3& corner : triangles[i].corners) {
-      boxes[i].add(corner);
-    }
+  std::pmr::vector<Box> boxes(corners.size() / 3, memory);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    boxes[i / 3].add(positions[corners[i]]);
   }
   return boxes;
 }
 
-double squared_distance(const Vec3& a, const Vec3& b) {
-  return dot(a - b, a - b);
+double largest(const Vec3& v) {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
 }  // namespace
 
-Vec3 closest_point_of_triangle(const Vec3& point, const std::array<Vec3, 3>& corners) {
-  const auto& [a, b, c] = corners;
+Vec3 closest_weights(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a;
   const Vec3 ac = c - a;
-  const double ab_a = dot(ab, point - a);
-  const double ac_a = dot(ac, point - a);
+  const double ab_a = dot(ab, p - a);
+  const double ac_a = dot(ac, p - a);
   if (ab_a <= 0 && ac_a <= 0) {
-    return a;
+    return {1, 0, 0};
   }
-  const double ab_b = dot(ab, point - b);
-  const double ac_b = dot(ac, point - b);
+  const double ab_b = dot(ab, p - b);
+  const double ac_b = dot(ac, p - b);
   if (ab_b >= 0 && ac_b <= ab_b) {
-    return b;
+    return {0, 1, 0};
   }
-  const double ab_c = dot(ab, point - c);
-  const double ac_c = dot(ac, point - c);
+  const double over_ab = ab_a * ac_b - ab_b * ac_a;
+  if (over_ab <= 0 && ab_a >= 0 && ab_b <= 0) {
+    const double along = ab_a / (ab_a - ab_b);
+    return {1 - along, along, 0};
+  }
+  const double ab_c = dot(ab, p - c);
+  const double ac_c = dot(ac, p - c);
   if (ac_c >= 0 && ab_c <= ac_c) {
-    return c;
+    return {0, 0, 1};
   }
-  // Twice the signed areas that the point's projection makes with the edges, up to a common factor.
-  const double of_c = ab_a * ac_b - ab_b * ac_a;
-  if (of_c <= 0 && ab_a >= 0 && ab_b <= 0) {
-    return a + ab_a / (ab_a - ab_b) * ab;
+  const double over_ac = ab_c * ac_a - ab_a * ac_c;
+  if (over_ac <= 0 && ac_a >= 0 && ac_c <= 0) {
+    const double along = ac_a / (ac_a - ac_c);
+    return {1 - along, 0, along};
   }
-  const double of_b = ab_c * ac_a - ab_a * ac_c;
-  if (of_b <= 0 && ac_a >= 0 && ac_c <= 0) {
-    return a + ac_a / (ac_a - ac_c) * ac;
+  const double over_bc = ab_b * ac_c - ab_c * ac_b;
+  if (over_bc <= 0 && ac_b - ab_b >= 0 && ab_c - ac_c >= 0) {
+    const double along = (ac_b - ab_b) / ((ac_b - ab_b) + (ab_c - ac_c));
+    return {0, 1 - along, along};
   }
-  const double of_a = ab_b * ac_c - ab_c * ac_b;
-  if (of_a <= 0 && ac_b - ab_b >= 0 && ab_c - ac_c >= 0) {
-    return b + (ac_b - ab_b) / ((ac_b - ab_b) + (ab_c - ac_c)) * (c - b);
-  }
-  const double sum = of_a + of_b + of_c;
-  return a + of_b / sum * ab + of_c / sum * ac;
+  const double scale = 1 / (over_bc + over_ac + over_ab);
+  return {over_bc * scale, over_ac * scale, over_ab * scale};
 }
 
-ClosestPoint::ClosestPoint(std::pmr::vector<Triangle> triangles, std::pmr::memory_resource* memory)
-    : triangles_(std::move(triangles)), tree_(boxes_of(triangles_, memory), memory) {}
+ClosestPoints::ClosestPoints(std::span<const Vec3> positions, std::span<const std::uint32_t> corners,
+                             std::span<const std::uint8_t> two_sided, std::pmr::memory_resource* memory)
+    : positions_(positions),
+      corners_(corners),
+      two_sided_(two_sided),
+      tree_(boxes_of(positions, corners, memory), memory) {}
 
-double ClosestPoint::facing(std::uint32_t triangle, const Vec3& normal) const {
-  const double cosine = dot(triangles_[triangle].normal, normal);
-  return triangles_[triangle].two_sided ? std::abs(cosine) : cosine;
+bool ClosestPoints::candidate(std::uint32_t triangle, const Vec3& position, const Vec3& direction,
+                              Candidate& result) const {
+  const Vec3& a = positions_[corners_[3 * triangle]];
+  const Vec3& b = positions_[corners_[3 * triangle + 1]];
+  const Vec3& c = positions_[corners_[3 * triangle + 2]];
+  const Vec3 normal = cross(b - a, c - a);
+  const double alignment = dot(normal, direction);
+  const bool back = alignment < 0;
+  constexpr double k_acute = 1e-6;
+  const double size = length(normal);
+  if (!(std::abs(alignment) > k_acute * size) || (back && two_sided_[triangle] == 0)) {
+    return false;
+  }
+  const Vec3 weights = closest_weights(position, a, b, c);
+  const double distance = length(weights.y * (b - a) + weights.z * (c - a) - (position - a));
+  result = {{triangle, back, weights, distance}, std::abs(alignment) / size};
+  return true;
 }
 
-std::optional<double> ClosestPoint::nearest_distance(const Vec3& point, const Vec3& normal, double max_distance) const {
-  double nearest = max_distance * max_distance;
+ClosestPoint ClosestPoints::find(const Vec3& position, const Vec3& normal, double max_distance) const {
+  const double size = largest(normal);
+  if (!(size > 0)) {
+    return {};
+  }
+  const Vec3 direction = normalize(normal / size);
+
+  // A hair over the squared bound, so that rounding of squares cannot hide what is exactly that far.
+  const auto squared = [](double distance) { return distance * distance * (1 + 0x1p-40); };
+  double least = max_distance;
   bool found = false;
+  Candidate one;
   tree_.walk_nearest(
-      point, [&] { return nearest; },
-      [&](std::uint32_t i) {
-        if (!(facing(i, normal) > k_least_facing)) {
-          return;
-        }
-        const double distance = squared_distance(point, closest_point_of_triangle(point, triangles_[i].corners));
-        if (distance <= nearest) {
-          nearest = distance;
+      position, [&] { return squared(least); },
+      [&](std::uint32_t triangle) {
+        if (candidate(triangle, position, direction, one) && one.point.distance <= least) {
+          least = one.point.distance;
           found = true;
         }
       });
-  return found ? std::optional(std::sqrt(nearest)) : std::nullopt;
-}
-
-std::optional<ClosestPoint::Found> ClosestPoint::find(const Vec3& point, const Vec3& normal,
-                                                      double max_distance) const {
-  const double size = length(normal);
-  if (!(size > 0 && max_distance >= 0)) {
-    return std::nullopt;
+  if (!found) {
+    return {};
   }
-  const Vec3 direction = normal / size;
-  const auto distance = nearest_distance(point, direction, max_distance);
-  if (!distance) {
-    return std::nullopt;
-  }
-  // Two sides of an edge are equally near to what lies on it, give or take the rounding of the question.
-  const double reach = *distance + 0x1p-40 * (*distance + std::abs(point.x) + std::abs(point.y) + std::abs(point.z));
-  std::optional<Found> best;
-  double best_facing = k_least_facing;
-  tree_.walk([&](const Box& box) { return box.squared_distance(point) <= reach * reach; },
-             [&](std::uint32_t i) {
-               const double cosine = facing(i, direction);
-               if (!(cosine > best_facing || (best && cosine == best_facing && i < best->triangle))) {
-                 return;
-               }
-               const Vec3 candidate = closest_point_of_triangle(point, triangles_[i].corners);
-               if (squared_distance(point, candidate) <= reach * reach) {
-                 best = Found{i, candidate, dot(triangles_[i].normal, direction) < 0};
-                 best_facing = cosine;
-               }
-             });
-  return best;
+  const double within = std::min(max_distance, least + 0x1p-22 * largest(position));
+  Candidate best{{}, -1};
+  tree_.walk_nearest(
+      position, [&] { return squared(within); },
+      [&](std::uint32_t triangle) {
+        if (!candidate(triangle, position, direction, one) || one.point.distance > within) {
+          return;
+        }
+        const auto ranks_before = [](const Candidate& x, const Candidate& y) {
+          if (x.alignment != y.alignment) {
+            return x.alignment > y.alignment;
+          }
+          return x.point.distance != y.point.distance ? x.point.distance < y.point.distance
+                                                      : x.point.triangle < y.point.triangle;
+        };
+        if (best.point.triangle == ClosestPoint::k_nothing || ranks_before(one, best)) {
+          best = one;
+        }
+      });
+  return best.point;
 }
 
 }  // namespace radvor

@@ -1,47 +1,54 @@
-// The nearest point of a set of triangles, among those that face a direction.
+// Where on the surfaces is the point nearest to this one, on a side that faces its way?
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <limits>
 #include <memory_resource>
-#include <optional>
-#include <vector>
+#include <span>
 
 #include "base/vector.h"
 #include "scene/box_tree.h"
 
 namespace radvor {
 
-/// The point of a triangle that is nearest to another (Ericson, Real-Time Collision Detection, 5.1.5).
-Vec3 closest_point_of_triangle(const Vec3& point, const std::array<Vec3, 3>& corners);
+struct ClosestPoint {
+  static constexpr std::uint32_t k_nothing = std::numeric_limits<std::uint32_t>::max();
 
-class ClosestPoint {
+  std::uint32_t triangle = k_nothing;
+  bool back = false;    ///< found on the side where the corners run clockwise
+  Vec3 weights{0.0};    ///< barycentric, of the triangle's corners; none negative, they sum to 1 within rounding
+  double distance = 0;  ///< scene units
+};
+
+class ClosestPoints {
  public:
-  struct Triangle {
-    std::array<Vec3, 3> corners;
-    Vec3 normal;  ///< unit
-    bool two_sided;
-  };
+  /// corners: 3 a triangle, indices into positions, counter-clockwise about the front; two_sided: 1 a triangle, not 0
+  /// where its back counts too. The arrays must outlive this. Triangles without area are never found.
+  ClosestPoints(std::span<const Vec3> positions, std::span<const std::uint32_t> corners,
+                std::span<const std::uint8_t> two_sided, std::pmr::memory_resource* memory);
 
-  struct Found {
-    std::uint32_t triangle;
-    Vec3 point;
-    bool back;  ///< of a two-sided triangle: its back is what faces the direction
-  };
-
-  ClosestPoint(std::pmr::vector<Triangle> triangles, std::pmr::memory_resource* memory);
-
-  /// Of the triangles that face along `normal` (not 0, any length; more than half a degree short of perpendicular, so
-  /// that a wall is not found from the floor that it stands on), the nearest one's nearest point, at most max_distance
-  /// away. Where several are equally near, the one that faces most, then the first.
-  std::optional<Found> find(const Vec3& point, const Vec3& normal, double max_distance) const;
+  /// The nearest point no farther than max_distance (>= 0, may be infinite) on a side whose normal makes an acute angle
+  /// with `normal` (any length; zero finds nothing); sides within a millionth of perpendicular don't face it. Positions
+  /// are often floats: of the sides whose distance exceeds the least by no more than float rounding of the position's
+  /// coordinates, the one best aligned with the normal wins, then the nearer, then the first. May run on many threads.
+  ClosestPoint find(const Vec3& position, const Vec3& normal, double max_distance) const;
 
  private:
-  double facing(std::uint32_t triangle, const Vec3& normal) const;
-  std::optional<double> nearest_distance(const Vec3& point, const Vec3& normal, double max_distance) const;
+  /// A triangle's nearest point, if a side of it faces the normal.
+  struct Candidate {
+    ClosestPoint point;
+    double alignment;  ///< cosine of the angle between the normals
+  };
+  bool candidate(std::uint32_t triangle, const Vec3& position, const Vec3& direction, Candidate& result) const;
 
-  std::pmr::vector<Triangle> triangles_;
+  std::span<const Vec3> positions_;
+  std::span<const std::uint32_t> corners_;
+  std::span<const std::uint8_t> two_sided_;
   BoxTree tree_;
 };
+
+/// Barycentric coordinates of the point of a triangle nearest to p, degenerate triangles included (Ericson, Real-Time
+/// Collision Detection, 5.1.5).
+Vec3 closest_weights(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
 }  // namespace radvor
