@@ -435,6 +435,7 @@ BakeStatus Bake::advance(double seconds, const ProgressCallback& callback) {
   const Clock::time_point begin = Clock::now();
   const double before = state_->seconds;
   BakeStatus status = BakeStatus::converged;
+  bool moved = false;  // every slice does a unit of work, however short it is: a sequence of them comes to its end
   while (state_->stage != Stage::done) {
     const Clock::time_point unit = Clock::now();
     const bool on_direct = state_->stage == Stage::direct || state_->stage == Stage::account;
@@ -443,12 +444,13 @@ BakeStatus Bake::advance(double seconds, const ProgressCallback& callback) {
       break;
     }
     const double spent = seconds_since(begin);
-    if ((seconds > 0 && spent >= seconds) ||
+    if ((seconds > 0 && moved && spent >= seconds) ||
         (state_->options.max_seconds > 0 && before + spent >= state_->options.max_seconds)) {
       status = BakeStatus::time_spent;
       break;
     }
     state_->step();
+    moved = true;
     (on_direct ? state_->stats.seconds_direct : state_->stats.seconds_indirect) += seconds_since(unit);
     state_->seconds = before + seconds_since(begin);
   }

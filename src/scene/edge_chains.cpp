@@ -242,7 +242,8 @@ void EdgeChains::split(const Jobs& jobs) {
     for (const auto& part : found_by_chunk) {
       found.insert(found.end(), part.begin(), part.end());
     }
-    std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.segment < b.segment; });
+    // Not std::stable_sort, whose buffer is not the host's memory; lay_inside puts each segment's in order.
+    std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.segment < b.segment; });
     for (std::size_t i = 0; i < found.size();) {
       std::size_t j = i + 1;
       while (j < found.size() && found[j].segment == found[i].segment) {

@@ -18,7 +18,7 @@ namespace {
 // Edges that facets may grow over.
 std::pmr::vector<bool> find_joins(const Scene& scene, const WeldedScene& welded,
                                   std::span<const CornerNormals> corner_normals, std::pmr::memory_resource* memory) {
-  std::pmr::vector<bool> flat(welded.triangles.size(), memory);
+  std::pmr::vector<bool> flat(welded.triangles.size(), false, memory);  // without the value, memory would be it
   for (std::size_t t = 0; t < flat.size(); ++t) {
     const Vec3 normal = normalize(area_normal(welded, welded.triangles[t]));
     flat[t] = std::ranges::all_of(corner_normals[t], [&](const Vec3& n) { return same_normal(n, normal); });

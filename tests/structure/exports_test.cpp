@@ -55,4 +55,25 @@ TEST(Exports, TheLibraryIsNotLinkedToEmbree) {
   EXPECT_EQ(needed.output.find("embree"), std::string::npos) << needed.output;
 }
 
+TEST(Imports, MemoryComesFromTheHostAlone) {
+  if (std::string(RADVOR_SANITIZERS) != "") {
+    GTEST_SKIP() << "sanitizers bring allocations of their own";
+  }
+  const auto listing = run_command("nm -DC --undefined-only " RADVOR_LIBRARY_FILE);
+  ASSERT_EQ(listing.status, 0) << listing.output;
+  // HostMemory's own call, for hosts that lend none. std::stable_sort, std::function or a plain std::vector would
+  // bring others.
+  const std::string allowed = "operator new(unsigned long, std::align_val_t, std::nothrow_t const&)";
+  static const std::regex k_allocation(R"(\boperator new\b|\b(malloc|calloc|realloc|aligned_alloc|posix_memalign)\b)");
+  std::istringstream lines(listing.output);
+  std::size_t seen = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (std::regex_search(line, k_allocation)) {
+      ++seen;
+      EXPECT_NE(line.find(allowed), std::string::npos) << line;
+    }
+  }
+  EXPECT_EQ(seen, 1u);
+}
+
 }  // namespace
