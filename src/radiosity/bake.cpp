@@ -58,7 +58,7 @@ struct Bake::State {
   std::pmr::vector<Color> direct, indirect;
   std::pmr::vector<Color> unshot;             // irradiance that each share has not reflected yet
   std::pmr::vector<Color> incoming;           // irradiance of the bounce under way, each sample
-  std::pmr::vector<Color> radiosity;          // of the tree's nodes: what is being shot
+  std::pmr::vector<NodeLight> radiosity;      // of the tree's nodes: what is being shot
   std::pmr::vector<Fate> fates;               // of the tree's roots
   std::pmr::vector<std::uint32_t> lit_roots;  // roots that reflect anything at all
   struct BlockLinks {
@@ -253,7 +253,7 @@ void Bake::State::plant() {
   fates.assign(tree->roots().size(), Fate{});
   FateMeter(scene, *welded, *visibility, occluders, options.seed).of_roots(*tree, fates, host);
   stats.rays += std::uint64_t{FateMeter::k_rays_per_root} * fates.size();
-  radiosity.assign(tree->nodes().size(), Color(0.0));
+  radiosity.assign(tree->nodes().size(), NodeLight{});
   for (std::uint32_t i = 0; i < block_count(); ++i) {
     links.emplace_back(&host.memory);
   }
@@ -281,13 +281,13 @@ void Bake::State::shoot_standout() {
     return;
   }
   const std::uint32_t root = lit_roots[patch];
-  std::fill(radiosity.begin(), radiosity.end(), Color(0.0));
+  std::fill(radiosity.begin(), radiosity.end(), NodeLight{});
   const TreeNode& node = tree->nodes()[root];
   double power = 0;
   for (std::uint32_t e = node.first_element; e < node.first_element + node.element_count; ++e) {
     const Element& element = tree->elements()[e];
-    radiosity[element.node] = shares[element.share].albedo * unshot[element.share];
-    power += shares[element.share].area * sum(radiosity[element.node]);
+    radiosity[element.node].radiosity = shares[element.share].albedo * unshot[element.share];
+    power += shares[element.share].area * sum(radiosity[element.node].radiosity);
     unshot[element.share] = Color(0.0);
   }
   tree->pull(radiosity, host);
@@ -297,7 +297,7 @@ void Bake::State::shoot_standout() {
   LinkAccuracy accuracy;
   accuracy.least_rays = 4;  // more is at stake than where everything shoots together
   over_blocks(0, block_count(), [&](std::uint32_t at, Tracer& tracer) {
-    LinkMaker maker(*tree, accuracy, &host.memory);
+    LinkMaker maker(*tree, occluder_tree ? &*occluder_tree : nullptr, accuracy, &host.memory);
     std::pmr::vector<Link> own(&host.memory);
     const std::size_t last = std::min<std::size_t>(receivers.size(), std::size_t{at + 1} * k_block);
     for (std::size_t r = std::size_t{at} * k_block; r < last; ++r) {
@@ -305,7 +305,7 @@ void Bake::State::shoot_standout() {
       maker.make(receivers[r], std::span(&root, 1), tracer, own);
       incoming[r] = Color(0.0);
       for (const Link& link : own) {
-        incoming[r] += static_cast<double>(link.factor) * radiosity[link.node];
+        incoming[r] += sent_along(link, radiosity);
       }
       indirect[r] += incoming[r];
     }
@@ -332,7 +332,7 @@ bool Bake::State::begin_bounce() {
     return false;
   }
   const auto shares = surface->shares();
-  std::fill(radiosity.begin(), radiosity.end(), Color(0.0));
+  std::fill(radiosity.begin(), radiosity.end(), NodeLight{});
   for (std::uint32_t p = 0; p < surface->patch_count(); ++p) {
     if (tree->roots()[p] == k_none) {
       continue;
@@ -341,8 +341,8 @@ bool Bake::State::begin_bounce() {
     double power = 0;
     for (std::uint32_t e = root.first_element; e < root.first_element + root.element_count; ++e) {
       const Element& element = tree->elements()[e];
-      radiosity[element.node] = shares[element.share].albedo * unshot[element.share];
-      power += shares[element.share].area * sum(radiosity[element.node]);
+      radiosity[element.node].radiosity = shares[element.share].albedo * unshot[element.share];
+      power += shares[element.share].area * sum(radiosity[element.node].radiosity);
     }
     stats.escaped_power += power * fates[p].escaped;
     stats.absorbed_back_power += power * fates[p].backs;
@@ -365,7 +365,7 @@ void Bake::State::bounce() {
     const std::size_t begin = std::size_t{at} * k_block;
     const std::size_t last = std::min<std::size_t>(receivers.size(), begin + k_block);
     if (first) {
-      LinkMaker maker(*tree, accuracy, &host.memory);
+      LinkMaker maker(*tree, occluder_tree ? &*occluder_tree : nullptr, accuracy, &host.memory);
       own.links.clear();
       own.first.assign(1, 0);
       for (std::size_t r = begin; r < last; ++r) {
@@ -377,7 +377,7 @@ void Bake::State::bounce() {
     for (std::size_t r = begin; r < last; ++r) {
       Color gathered(0.0);
       for (std::uint32_t i = own.first[r - begin]; i < own.first[r - begin + 1]; ++i) {
-        gathered += static_cast<double>(own.links[i].factor) * radiosity[own.links[i].node];
+        gathered += sent_along(own.links[i], radiosity);
       }
       incoming[r] = gathered;
       indirect[r] += gathered;

@@ -4,8 +4,8 @@
 #include <optional>
 #include <span>
 
+#include "radiosity/clipped_form_factor.h"
 #include "radiosity/form_factor.h"
-#include "radiosity/visible_polygon.h"
 
 namespace radvor {
 
@@ -29,7 +29,7 @@ Vec3 centre(const std::array<Vec3, 3>& t) {
 
 constexpr std::size_t k_max_clipped = 64;  // occluders; rays where there are more
 constexpr int k_max_depth = 7;
-constexpr std::size_t k_stack = 3 * k_max_depth + 4;
+constexpr std::size_t k_stack = 3 * k_max_depth + 5;
 
 // Up to four parts of one emitter, seen together: 4 rays each make one packet of 16.
 struct Verdict {
@@ -64,52 +64,6 @@ void look(const Emitter& emitter, const Receiver& receiver, Tracer& tracer, std:
   }
 }
 
-// The part of a triangle above the receiver's horizon: 3 or 4 corners, or none.
-std::size_t above_horizon(const Receiver& receiver, const std::array<Vec3, 3>& triangle, std::array<Vec3, 4>& part) {
-  std::size_t size = 0;
-  Vec3 last = triangle[2];
-  double last_height = glm::dot(last - receiver.point, receiver.normal);
-  for (const Vec3& corner : triangle) {
-    const double height = glm::dot(corner - receiver.point, receiver.normal);
-    if ((last_height < 0 && height > 0) || (last_height > 0 && height < 0)) {
-      part[size++] = last + (corner - last) * (last_height / (last_height - height));
-    }
-    if (height >= 0) {
-      part[size++] = corner;
-    }
-    last = corner;
-    last_height = height;
-  }
-  return size;
-}
-
-// The form factor of what is seen of the emitter, by clipping; none where too much stands in the way.
-std::optional<double> clipped_form_factor(const Emitter& emitter, const Receiver& receiver, double whole,
-                                          Tracer& tracer, const OccluderTree& occluders) {
-  std::array<Vec3, 4> corners;
-  const std::span polygon(corners.data(), above_horizon(receiver, emitter.corners, corners));
-  std::array<std::uint32_t, k_max_clipped> found;
-  const auto count = occluders.between(receiver.lifted, polygon, emitter.normal, tracer.lift(), found);
-  if (!count) {
-    return std::nullopt;
-  }
-  if (*count == 0) {
-    ++tracer.counters.skipped_clear;
-    return whole;
-  }
-  VisiblePolygon visible(receiver.lifted, polygon, emitter.normal, tracer.lift());
-  for (std::size_t i = 0; i < *count && !visible.dark(); ++i) {
-    if (!visible.subtract(occluders.triangle(found[i]))) {
-      return std::nullopt;
-    }
-  }
-  if (visible.whole()) {
-    return whole;
-  }
-  tracer.counters.form_factors += visible.piece_count();
-  return visible.form_factor(receiver.point, receiver.normal);
-}
-
 }  // namespace
 
 Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tracer& tracer,
@@ -124,7 +78,8 @@ Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tr
   // this. A penumbra has some 2^depth such parts with independent errors, so far less than their sum is lost.
   const double may_stay = 0.25 * accuracy.tolerance * accuracy.mean_irradiance / luminance(emitter.radiosity);
   if (occluders != nullptr && whole > may_stay) {
-    if (const auto seen = clipped_form_factor(emitter, receiver, whole, tracer, *occluders)) {
+    if (const auto seen =
+            clipped_form_factor(receiver, emitter.corners, emitter.normal, whole, k_max_clipped, tracer, *occluders)) {
       return emitter.radiosity * *seen;
     }
   }
@@ -156,11 +111,17 @@ Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tr
     }
   };
 
-  const Part root{emitter.corners, whole, 0};
-  if (whole > may_stay) {
-    stack[size++] = root;  // what matters gets 16 rays at least, in 4 parts
-  } else {
-    settle(std::span(&root, 1));
+  // What is above the horizon: one triangle or two.
+  std::array<Vec3, 4> corners;
+  const std::size_t corner_count = cut_at_horizon(receiver, emitter.corners, corners);
+  for (std::size_t i = 2; i < corner_count; ++i) {
+    const std::array<Vec3, 3> triangle = {corners[0], corners[i - 1], corners[i]};
+    const Part root{triangle, polygon_form_factor(receiver.point, receiver.normal, triangle, emitter.normal), 0};
+    if (root.form_factor > may_stay) {
+      stack[size++] = root;  // what matters gets 16 rays at least, in 4 parts
+    } else if (root.form_factor > 0) {
+      settle(std::span(&root, 1));
+    }
   }
   while (size > 0) {
     const Part part = stack[--size];

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "radiosity/clipped_form_factor.h"
+
 namespace radvor {
 
 namespace {
@@ -25,8 +27,10 @@ Vec3 point_of_cell(std::span<const Vec3> polygon, const Vec3& centroid, std::uin
 
 }  // namespace
 
-LinkMaker::LinkMaker(const ShootingTree& tree, const LinkAccuracy& accuracy, std::pmr::memory_resource* memory)
+LinkMaker::LinkMaker(const ShootingTree& tree, const OccluderTree* occluders, const LinkAccuracy& accuracy,
+                     std::pmr::memory_resource* memory)
     : tree_(tree),
+      occluders_(occluders),
       accuracy_(accuracy),
       pending_(memory),
       candidates_(memory),
@@ -36,6 +40,7 @@ LinkMaker::LinkMaker(const ShootingTree& tree, const LinkAccuracy& accuracy, std
 
 void LinkMaker::make(const Receiver& receiver, std::span<const std::uint32_t> roots, Tracer& tracer,
                      std::pmr::vector<Link>& links) {
+  links_ = &links;
   for (const std::uint32_t root : roots) {
     if (root == k_none) {
       continue;
@@ -46,12 +51,12 @@ void LinkMaker::make(const Receiver& receiver, std::span<const std::uint32_t> ro
       pending_.pop_back();
       open(node, receiver, tracer);
       if (targets_.size() >= k_batch) {
-        settle(receiver, tracer, links);
+        settle(receiver, tracer);
       }
     }
   }
   while (!candidates_.empty() || !pending_.empty()) {
-    settle(receiver, tracer, links);
+    settle(receiver, tracer);
     while (!pending_.empty()) {
       const std::uint32_t node = pending_.back();
       pending_.pop_back();
@@ -105,6 +110,10 @@ void LinkMaker::open(std::uint32_t index, const Receiver& receiver, Tracer& trac
   if (form_factor <= 0) {
     return;
   }
+  if (const auto visible = clip(node, form_factor, receiver, tracer)) {
+    link(index, *visible, receiver);
+    return;
+  }
   const double wanted = std::ceil(form_factor * accuracy_.rays_per_hemisphere);
   const auto rays = static_cast<std::uint32_t>(
       std::clamp(wanted, static_cast<double>(accuracy_.least_rays), static_cast<double>(accuracy_.most_rays)));
@@ -141,7 +150,7 @@ void LinkMaker::propose(std::uint32_t index, double form_factor, std::uint32_t r
 
 // Casts the queued rays. Nodes whose rays agree become links; inner nodes that matter and are partly hidden are opened;
 // so are those of which no point was above the horizon.
-void LinkMaker::settle(const Receiver& receiver, Tracer& tracer, std::pmr::vector<Link>& links) {
+void LinkMaker::settle(const Receiver& receiver, Tracer& tracer) {
   blocked_.resize(targets_.size());
   tracer.blocked_from(receiver.lifted, targets_, blocked_.data());
   for (const Candidate& candidate : candidates_) {
@@ -158,13 +167,60 @@ void LinkMaker::settle(const Receiver& receiver, Tracer& tracer, std::pmr::vecto
       for (std::uint32_t child = node.first_child; child < node.first_child + node.child_count; ++child) {
         pending_.push_back(child);
       }
-    } else if (seen > 0) {
-      links.push_back({candidate.node, static_cast<float>(candidate.form_factor * seen / all)});
+      continue;
     }
+    const double visible = all > 0 ? candidate.form_factor * seen / all : 0;
+    link(candidate.node, visible, receiver);
   }
   candidates_.clear();
   targets_.clear();
   weights_.clear();
+}
+
+// The visible form factor of a flat node by clipping, where that is cheap. A leaf's is exact; an inner node's is its
+// form factor times the visible part of the rectangle about it.
+std::optional<double> LinkMaker::clip(const TreeNode& node, double form_factor, const Receiver& receiver,
+                                      Tracer& tracer) const {
+  if (occluders_ == nullptr || !node.flat) {
+    return std::nullopt;
+  }
+  if (node.child_count == 0) {
+    const Element& element = tree_.elements()[node.first_element];
+    if (!element.convex || element.corner_count > k_max_clip_corners) {
+      return std::nullopt;
+    }
+    return clipped_form_factor(receiver, tree_.polygon(element), node.piece.normal, form_factor, accuracy_.most_clipped,
+                               tracer, *occluders_);
+  }
+  const auto rectangle = bounding_rectangle(node);
+  const auto share = visible_share(receiver, rectangle, node.piece.normal, accuracy_.most_clipped, tracer, *occluders_);
+  return share ? std::optional(form_factor * *share) : std::nullopt;
+}
+
+void LinkMaker::link(std::uint32_t index, double visible, const Receiver& receiver) {
+  if (visible <= 0) {
+    return;
+  }
+  const TreeNode& node = tree_.nodes()[index];
+  Link link{index, static_cast<float>(visible), 0, 0};
+  if (node.flat && node.child_count > 0) {
+    // The kernel is H (n . w) / (pi |w|^4), H the same all over the node's plane.
+    const Vec3 w = node.piece.centroid - receiver.point;
+    const Vec3 slope = receiver.normal / glm::dot(receiver.normal, w) - 4.0 * w / glm::dot(w, w);
+    const auto pack = [&](const Vec3& axis) {
+      const double value = std::clamp(glm::dot(slope, axis) * node.radius, -1.99, 1.99);
+      return static_cast<std::int16_t>(std::lround(value * Link::k_slope_unit));
+    };
+    link.slope_u = pack(node.piece.u);
+    link.slope_v = pack(node.piece.v);
+  }
+  links_->push_back(link);
+}
+
+Color sent_along(const Link& link, std::span<const NodeLight> light) {
+  const NodeLight& node = light[link.node];
+  return static_cast<double>(link.factor) * (node.radiosity + (link.slope_u / Link::k_slope_unit) * node.moment_u +
+                                             (link.slope_v / Link::k_slope_unit) * node.moment_v);
 }
 
 }  // namespace radvor

@@ -51,7 +51,26 @@ void split_into_groups(std::span<std::uint32_t> order, std::span<const PlanePiec
   }
 }
 
+// To the rounding of its corners.
+bool is_convex(std::span<const Vec3> polygon, const PlanePiece& piece) {
+  const std::size_t size = polygon.size();
+  for (std::size_t i = 0; i < size; ++i) {
+    const Vec3 in = polygon[(i + 1) % size] - polygon[i];
+    const Vec3 out = polygon[(i + 2) % size] - polygon[(i + 1) % size];
+    if (glm::dot(glm::cross(in, out), piece.normal) < -1e-9 * piece.area) {
+      return false;
+    }
+  }
+  return size >= 3;
+}
+
 }  // namespace
+
+std::array<Vec3, 4> bounding_rectangle(const TreeNode& node) {
+  const auto at = [&](double u, double v) { return node.piece.centroid + u * node.piece.u + v * node.piece.v; };
+  return {at(node.low.x, node.low.y), at(node.high.x, node.low.y), at(node.high.x, node.high.y),
+          at(node.low.x, node.high.y)};
+}
 
 ShootingTree::ShootingTree(const Surface& surface, Host& host)
     : nodes_(&host.memory), elements_(&host.memory), corners_(&host.memory), roots_(&host.memory) {
@@ -59,6 +78,7 @@ ShootingTree::ShootingTree(const Surface& surface, Host& host)
   std::pmr::memory_resource* memory = &host.memory;
   std::pmr::vector<PlanePiece> pieces(shares.size(), memory);
   std::pmr::vector<double> radii(shares.size(), 0.0, memory);
+  std::pmr::vector<Bounds> bounds(shares.size(), Bounds{Vec2(0.0), Vec2(0.0)}, memory);
   std::pmr::vector<std::uint32_t> first_corner(shares.size() + 1, 0, memory);
 
   // Cells in parallel, by blocks of shares; then one array.
@@ -77,7 +97,10 @@ ShootingTree::ShootingTree(const Surface& surface, Host& host)
                              : measure_polygon(polygon, frame.u, frame.v, frame.normal);
       pieces[s].area = share.area;
       for (const Vec3& corner : polygon) {
-        radii[s] = std::max(radii[s], glm::length(corner - pieces[s].centroid));
+        const Vec3 apart = corner - pieces[s].centroid;
+        const Vec2 in_plane(glm::dot(apart, pieces[s].u), glm::dot(apart, pieces[s].v));
+        radii[s] = std::max(radii[s], glm::length(apart));
+        bounds[s] = {glm::min(bounds[s].low, in_plane), glm::max(bounds[s].high, in_plane)};
       }
       first_corner[s + 1] = static_cast<std::uint32_t>(polygon.size());
       block_corners[block].insert(block_corners[block].end(), polygon.begin(), polygon.end());
@@ -96,16 +119,18 @@ ShootingTree::ShootingTree(const Surface& surface, Host& host)
   nodes_.reserve(share_count + share_count / 4 + surface.patch_count());
   for (std::uint32_t patch = 0; patch < surface.patch_count(); ++patch) {
     roots_.push_back(k_none);
-    add_patch(patch, surface, pieces, radii, memory);
+    add_patch(patch, surface, pieces, radii, bounds, memory);
   }
   for (Element& element : elements_) {
     element.first_corner = first_corner[element.share];
     element.corner_count = first_corner[element.share + 1] - first_corner[element.share];
+    element.convex = is_convex(polygon(element), pieces[element.share]);
   }
 }
 
 void ShootingTree::add_patch(std::uint32_t patch, const Surface& surface, std::span<const PlanePiece> pieces,
-                             std::span<const double> radii, std::pmr::memory_resource* memory) {
+                             std::span<const double> radii, std::span<const Bounds> bounds,
+                             std::pmr::memory_resource* memory) {
   std::pmr::vector<std::uint32_t> order(memory);
   for (const std::uint32_t share : surface.patch(patch)) {
     if (pieces[share].area > 0) {
@@ -149,7 +174,12 @@ void ShootingTree::add_patch(std::uint32_t patch, const Surface& surface, std::s
       node.piece.normal = length > 0 ? node.area_vector / length : pieces[order[begin]].normal;
     }
     node.radius = 0;
+    node.low = node.high = Vec2(0.0);
     for (std::uint32_t i = begin; i < end; ++i) {
+      const Vec3 apart = pieces[order[i]].centroid - node.piece.centroid;
+      const Vec2 in_plane(glm::dot(apart, node.piece.u), glm::dot(apart, node.piece.v));
+      node.low = glm::min(node.low, in_plane + bounds[order[i]].low);
+      node.high = glm::max(node.high, in_plane + bounds[order[i]].high);
       node.radius =
           std::max(node.radius, glm::length(pieces[order[i]].centroid - node.piece.centroid) + radii[order[i]]);
     }
@@ -163,7 +193,7 @@ void ShootingTree::add_patch(std::uint32_t patch, const Surface& surface, std::s
     const std::uint32_t begin = nodes_[parent].first_element - base;
     const std::uint32_t count = nodes_[parent].element_count;
     if (count == 1) {
-      elements_[base + begin] = {order[begin], parent, 0, 0};
+      elements_[base + begin] = {order[begin], parent, 0, 0, false};
       continue;
     }
     ends.clear();
@@ -184,7 +214,7 @@ void ShootingTree::add_patch(std::uint32_t patch, const Surface& surface, std::s
   }
 }
 
-void ShootingTree::pull(std::span<Color> radiosity, Host& host) const {
+void ShootingTree::pull(std::span<NodeLight> light, Host& host) const {
   const auto patch_count = static_cast<std::uint32_t>(roots_.size());
   constexpr std::uint32_t k_block = 64;
   host.jobs.for_each((patch_count + k_block - 1) / k_block, [&](std::uint32_t block) {
@@ -204,11 +234,22 @@ void ShootingTree::pull(std::span<Color> radiosity, Host& host) const {
         if (node.child_count == 0) {
           continue;
         }
-        Color power(0.0);
+        NodeLight sum;
         for (std::uint32_t child = node.first_child; child < node.first_child + node.child_count; ++child) {
-          power += nodes_[child].piece.area * radiosity[child];
+          const PlanePiece& piece = nodes_[child].piece;
+          sum.radiosity += piece.area * light[child].radiosity;
+          if (node.flat) {
+            const Vec3 apart = piece.centroid - node.piece.centroid;
+            const double child_radius = nodes_[child].radius;
+            sum.moment_u += piece.area * (glm::dot(apart, node.piece.u) * light[child].radiosity +
+                                          child_radius * light[child].moment_u);
+            sum.moment_v += piece.area * (glm::dot(apart, node.piece.v) * light[child].radiosity +
+                                          child_radius * light[child].moment_v);
+          }
         }
-        radiosity[index] = power / node.piece.area;
+        light[index].radiosity = sum.radiosity / node.piece.area;
+        light[index].moment_u = sum.moment_u / (node.piece.area * node.radius);
+        light[index].moment_v = sum.moment_v / (node.piece.area * node.radius);
       }
     }
   });

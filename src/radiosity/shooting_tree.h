@@ -3,6 +3,7 @@
 // Syndrome (1991), the paper's [17].
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory_resource>
 #include <span>
@@ -20,8 +21,16 @@ struct TreeNode {
   Vec3 area_vector;  ///< sum of area * normal over the elements
   double radius;     ///< of the sphere about piece.centroid that holds all cells
   bool flat;         ///< all elements lie in one plane, with one basis
+  Vec2 low, high;    ///< where flat: bounds of all cells about the centroid, along piece.u, v
   std::uint32_t first_child, child_count;      ///< children are neighbours among the nodes; none: a leaf
   std::uint32_t first_element, element_count;  ///< a range of elements
+};
+
+/// What a node shoots.
+struct NodeLight {
+  Color radiosity{0.0};                ///< area-weighted mean, W m^-2
+  Color moment_u{0.0}, moment_v{0.0};  ///< mean of radiosity times distance from the centroid along piece.u and
+                                       ///< piece.v, over the radius; 0 for leaves and where not flat
 };
 
 /// One share that shoots.
@@ -29,7 +38,11 @@ struct Element {
   std::uint32_t share;
   std::uint32_t node;                        ///< its leaf
   std::uint32_t first_corner, corner_count;  ///< its cell, into ShootingTree::corners
+  bool convex;                               ///< the cell is
 };
+
+/// The rectangle about a flat node, counter-clockwise about its normal.
+std::array<Vec3, 4> bounding_rectangle(const TreeNode& node);
 
 class ShootingTree {
  public:
@@ -44,12 +57,16 @@ class ShootingTree {
   /// The root of each patch; patches without area have none (k_none).
   std::span<const std::uint32_t> roots() const { return roots_; }
 
-  /// radiosity of each leaf in, area-weighted mean of every node out; one value a node.
-  void pull(std::span<Color> radiosity, Host& host) const;
+  /// Radiosity of each leaf in, of every node out; one entry a node.
+  void pull(std::span<NodeLight> light, Host& host) const;
 
  private:
+  struct Bounds {
+    Vec2 low, high;  // of a cell about its centroid
+  };
+
   void add_patch(std::uint32_t patch, const Surface& surface, std::span<const PlanePiece> pieces,
-                 std::span<const double> radii, std::pmr::memory_resource* memory);
+                 std::span<const double> radii, std::span<const Bounds> bounds, std::pmr::memory_resource* memory);
 
   std::pmr::vector<TreeNode> nodes_;
   std::pmr::vector<Element> elements_;

@@ -83,7 +83,7 @@ TEST_P(Furnace, RoomWithFloatingBox) {
 
 TEST(Enclosure, AreaMeanOfPointLightInCubeOfCie171Case58) {
   // Any closed enclosure of uniform albedo: area means E_direct = Phi / S and E_indirect = rho Phi / (S (1 - rho)).
-  for (const double rho : {0.2, 0.5, 0.8}) {
+  for (const double rho : {0.2, 0.8}) {
     SceneBuilder builder;
     builder.box({0, 0, 0}, {4, 4, 4}, true, builder.material(Color(rho)));
     Light lamp;
@@ -92,6 +92,7 @@ TEST(Enclosure, AreaMeanOfPointLightInCubeOfCie171Case58) {
     builder.scene.lights.push_back(lamp);
     BakeOptions options = coarse(0.01);
     options.spacing.patch_spacing = 0.4;
+    options.spacing.element_levels = 2;
     TestBake bake(builder.take(), options);
     bake.run();
     double direct = 0, indirect = 0, area = 0;

@@ -29,12 +29,14 @@ std::vector<Emitter> square_emitter(const Vec3& a, const Vec3& b, const Vec3& c,
   return emitters;
 }
 
+// As bakes do: what stands between is clipped away.
 double glow(const std::vector<Emitter>& emitters, const Receiver& receiver, const Visibility& visibility,
-            const EmitterAccuracy& accuracy) {
+            const EmitterAccuracy& accuracy, const Plates& plates = {}) {
+  const OccluderTree occluders({plates.positions, plates.corners}, std::pmr::get_default_resource());
   Tracer tracer(visibility);
   double sum = 0;
   for (const Emitter& emitter : emitters) {
-    sum += irradiance_of_emitter(emitter, receiver, tracer, accuracy).r;
+    sum += irradiance_of_emitter(emitter, receiver, tracer, accuracy, &occluders).r;
   }
   return sum;
 }
@@ -137,8 +139,8 @@ TEST(Emitter, HalfPlanePenumbra) {
   accuracy.tolerance = 0.01;
   for (std::size_t i = 0; i < std::size(at); ++i) {
     // Off the lines that strata and shadow's edge would share.
-    EXPECT_NEAR(glow(emitters, receiver_at({at[i], 1e-4, 0}, {0, 0, 1}, visibility), visibility, accuracy), exact[i],
-                0.01 * 0.0367)
+    EXPECT_NEAR(glow(emitters, receiver_at({at[i], 1e-4, 0}, {0, 0, 1}, visibility), visibility, accuracy, plates),
+                exact[i], 0.01 * 0.0367)
         << at[i];
   }
 }
@@ -160,7 +162,7 @@ TEST(Emitter, ObstructedSquaresAreaMean) {
     for (int a = 0; a < side; ++a) {
       for (int b = 0; b < side; ++b) {
         const Vec3 x((a + 0.5) / side, (b + 0.5) / side, 0);
-        mean += glow(emitters, receiver_at(x, {0, 0, 1}, visibility), visibility, accuracy) / (side * side);
+        mean += glow(emitters, receiver_at(x, {0, 0, 1}, visibility), visibility, accuracy, plates) / (side * side);
       }
     }
     EXPECT_NEAR(mean / exact[i], 1, 2e-3) << h;
