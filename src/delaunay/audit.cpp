@@ -9,7 +9,7 @@ class Audit {
  public:
   explicit Audit(const Triangulation& triangulation) : d_(triangulation), m_(triangulation.mesh_) {}
 
-  void run() const {
+  void run() {
     check_counts();
     check_vertices();
     for (TriangleId t = 0; t < m_.record_count(); ++t) {
@@ -22,6 +22,9 @@ class Audit {
     check_stars();
     if (d_.vertex_count_ >= 2) {
       check_hull();
+    }
+    if (ties_ && d_.steered_ && !d_.unaligned_) {
+      require(d_.is_aligned(), "a tie does not follow the values", 0);
     }
   }
 
@@ -107,7 +110,7 @@ class Audit {
     }
   }
 
-  void check_edges(TriangleId t) const {
+  void check_edges(TriangleId t) {
     for (std::uint32_t corner = 0; corner < 3; ++corner) {
       const HalfEdge h = half_edge(t, corner);
       if (m_.origin(h) == k_infinite || m_.target(h) == k_infinite) {
@@ -121,6 +124,7 @@ class Audit {
                                      d_.positions_[m_.apex(h)], d_.positions_[m_.apex(m_.twin(h))], d_.lattice_);
         require(inside <= 0, "an edge is not locally Delaunay", h);
         require(inside < 0 || d_.steered_ || !d_.prefers_flip(h), "a tie is not canonical", h);
+        ties_ = ties_ || inside == 0;
       }
     }
   }
@@ -177,6 +181,7 @@ class Audit {
 
   const Triangulation& d_;
   const Mesh& m_;
+  bool ties_ = false;
 };
 
 void Triangulation::validate() const {

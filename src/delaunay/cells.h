@@ -40,19 +40,21 @@ class CellBuffer {
  private:
   friend class CellBuilder;
 
-  /// A side of the polygon in the making: on the bisector between the site and another one, on a constraint edge, or
-  /// given by the caller's window. `end` is the corner where it meets the next side.
+  /// A side of the polygon in the making: on the bisector between the site and another one, on an edge or the ray to a
+  /// neighbour, or on the caller's window.
   struct Side {
-    enum class Kind : std::uint8_t { bisector, edge, ray, window } kind;
-    std::uint32_t id;  // vertex, half-edge, vertex, index
-    Vec2 end;
+    enum class Kind : std::uint8_t { bisector, line, window } kind;
+    VertexId a, b;  ///< bisector: the other site; line: the polygon is left of a -> b; window: from corner a to b
+    Vec2 end;       ///< where it meets the next side, counter-clockwise
   };
 
   std::pmr::vector<Sector> sectors_;
   std::pmr::vector<Vec2> points_;
   std::pmr::vector<Side> sides_, clipped_;
   std::pmr::vector<HalfEdge> stack_;
-  std::pmr::vector<VertexId> seen_;
+  std::pmr::vector<TriangleId> visited_;
+  std::pmr::vector<HalfEdge> blocking_;
+  std::pmr::vector<VertexId> candidates_;
 };
 
 /// The cell of a site: the points inside of the domain whose nearest visible site it is; blocking constraint edges

@@ -32,6 +32,8 @@ void Triangulation::constrain(VertexId a, VertexId b, std::uint8_t flags, Crossi
 }
 
 void Triangulation::constrain_along(VertexId a, VertexId b, std::uint8_t flags, Crossing crossing) {
+  constrained_ = true;
+  seamed_ = seamed_ || (flags & constraint::k_blocking) == 0;
   Segment segment(memory_);
   std::pmr::vector<VertexId> goals(memory_);
   goals.push_back(b);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "delaunay/transaction.h"
 #include "delaunay/triangulation.h"
 
 namespace radvor::delaunay {
@@ -33,14 +34,14 @@ void Triangulation::check(Vec2 point) {
   }
 }
 
-VertexId Triangulation::insert(Vec2 point) {
+VertexId Triangulation::insert(Vec2 point, VertexId hint) {
   check(point);
   reserve_one();
   lattice_.include(point);
   changed_.clear();
   Location location;
   if (vertex_count_ >= 2) {
-    location = locate_from(point, start_near(k_none), lattice_);
+    location = locate_from(point, start_near(hint), lattice_);
   } else if (vertex_count_ == 1) {
     location = locate(point);
   }
@@ -48,7 +49,12 @@ VertexId Triangulation::insert(Vec2 point) {
     last_ = location.vertices[0];
     return last_;
   }
-  return insert_new(point, location);
+  if (!steered_) {
+    return insert_new(point, location);
+  }
+  VertexId p = k_none;
+  transact([&] { p = insert_new(point, location); });
+  return p;
 }
 
 VertexId Triangulation::insert_new(Vec2 point, const Location& location) {
@@ -125,7 +131,10 @@ void Triangulation::reserve_one() {
 
 VertexId Triangulation::add_vertex(Vec2 point) {
   VertexId p = free_vertex_;
-  if (p != k_none && !mesh_.in_transaction()) {
+  if (p != k_none) {
+    if (mesh_.in_transaction()) {
+      reused_.push_back(p);
+    }
     free_vertex_ = mesh_.out(p);
     mesh_.set_out(p, k_none);
     positions_[p] = point;

@@ -1,8 +1,8 @@
 // Removal. Edges of the vertex are flipped away while that leaves an ear of its star behind; then three triangles
 // become one, or, on the hull, what is left of the star turns into ghosts. The ears' new edges are made locally
 // Delaunay.
-#include <algorithm>
 #include <limits>
+#include <vector>
 
 #include "base/error.h"
 #include "delaunay/transaction.h"
@@ -18,19 +18,19 @@ void Triangulation::remove(VertexId vertex) {
     } else {
       remove_from_plane(vertex);
     }
+    std::erase(changed_, vertex);
   });
-  forget_vertex(vertex);
+  free_again(vertex);
+  --vertex_count_;
 }
 
-void Triangulation::forget_vertex(VertexId vertex) {
+void Triangulation::free_again(VertexId vertex) {
   positions_[vertex].x = std::numeric_limits<double>::quiet_NaN();
   if (!values_.empty()) {
     values_[vertex] = std::numeric_limits<double>::quiet_NaN();
   }
   mesh_.set_out(vertex, free_vertex_);
   free_vertex_ = vertex;
-  --vertex_count_;
-  changed_.erase(std::remove(changed_.begin(), changed_.end(), vertex), changed_.end());
 }
 
 void Triangulation::remove_from_plane(VertexId v) {

@@ -5,7 +5,7 @@
 
 namespace radvor::delaunay {
 
-/// Runs edit(); what it throws leaves the triangulation as it was. Within, new vertices get new ids.
+/// Runs edit(); what it throws leaves the triangulation as it was.
 template <class Edit>
 void Triangulation::transact(Edit&& edit) {
   const std::size_t bound = positions_.size();
@@ -14,15 +14,22 @@ void Triangulation::transact(Edit&& edit) {
   const bool flat = flat_;
   const bool marked = marked_;
   changed_.clear();
+  reused_.clear();
   mesh_.begin();
   try {
     edit();
     make_report_unique();
+    if (steered_) {
+      refresh_ties();
+    }
   } catch (...) {
     mesh_.rollback();
     positions_.resize(bound);
     if (!values_.empty()) {
       values_.resize(bound);
+    }
+    for (; !reused_.empty(); reused_.pop_back()) {
+      free_again(reused_.back());
     }
     vertex_count_ = count;
     last_ = last;

@@ -51,7 +51,9 @@ class Triangulation {
 
   /// Inserts a point; one that is already there gives its vertex. Splits the constraint edge it lies on exactly.
   /// Throws invalid_geometry (not finite) or limit (neither 0 nor 2^-142 .. 2^200 in magnitude).
-  VertexId insert(Vec2 point);
+  VertexId insert(Vec2 point) { return insert(point, k_none); }
+  /// hint: a vertex near it, to start from.
+  VertexId insert(Vec2 point, VertexId hint);
 
   /// All or nothing, in a spatial order of its own; the triangulation is that of inserting one by one in any order.
   /// New vertices get ids in input order. vertices: count ids, or NULL. Does not fill changed().
@@ -90,6 +92,9 @@ class Triangulation {
   std::uint8_t constraint_flags(VertexId a, VertexId b) const;
   std::uint8_t constraint_flags(HalfEdge h) const { return mesh_.constraint(h); }
   std::uint32_t constraint_count() const;
+  /// False if there never was one: then every edge is locally Delaunay.
+  bool may_have_constraints() const { return constrained_; }
+  bool may_have_continuous_constraints() const { return seamed_; }
 
   // ---- Domain
 
@@ -178,7 +183,8 @@ class Triangulation {
 
   // ---- Values and ties
 
-  /// One value a vertex, for interpolation and ties; NaN, the initial one, is unset. ids first ... first + count - 1.
+  /// One value a vertex, finite, or NaN: unset, the initial one. ids first ... first + count - 1; removed ones are
+  /// skipped.
   void set_values(std::span<const double> values, VertexId first);
   double value(VertexId vertex) const;
 
@@ -199,9 +205,10 @@ class Triangulation {
   const Mesh& mesh() const { return mesh_; }
   std::span<const Vec2> positions() const { return positions_; }
   std::pmr::memory_resource* memory() const { return memory_; }
+  bool lies_on_circle(HalfEdge h) const;  ///< both real, no constraint, and the four corners on one circle
 
  private:
-  friend class TieResolver;
+  friend class TiePolygon;
   friend class Audit;
 
   struct BoundaryEdge {
@@ -246,7 +253,7 @@ class Triangulation {
 
   // remove.cpp
   VertexId only_vertex() const;
-  void forget_vertex(VertexId vertex);
+  void free_again(VertexId vertex);
   void remove_from_plane(VertexId vertex);
   void shrink_star(VertexId vertex);
   void close_inner(VertexId vertex);
@@ -270,6 +277,9 @@ class Triangulation {
   void make_report_unique();
   template <class Edit>
   void transact(Edit&& edit);
+  // ties.cpp
+  void refresh_ties();
+  bool is_aligned() const;
 
   std::pmr::memory_resource* memory_;
   Mesh mesh_;
@@ -277,11 +287,16 @@ class Triangulation {
   std::pmr::vector<double> values_;   // empty until a value is set
   std::uint32_t vertex_count_ = 0;
   VertexId free_vertex_ = k_none;
-  bool flat_ = true;        // all vertices are collinear: no real triangle
-  bool steered_ = false;    // some value was set: ties may be other than canonical
-  bool marked_ = false;     // by mark_domain
-  VertexId last_ = k_none;  // where the last edit was
+  bool flat_ = true;          // all vertices are collinear: no real triangle
+  bool unaligned_ = false;    // values changed since the last realign
+  bool steered_ = false;      // some value was set: ties may be other than canonical
+  bool constrained_ = false;  // there was a constraint once
+  bool seamed_ = false;       // one that blocks no view
+  bool marked_ = false;       // by mark_domain
+  VertexId last_ = k_none;    // where the last edit was
   Lattice lattice_;
+
+  std::pmr::vector<VertexId> reused_;  // free ids that the open transaction took
 
   // Scratch that insertions keep.
   std::pmr::vector<VertexId> changed_;

@@ -1,0 +1,105 @@
+// Values between the vertices: linear over triangles, and R. Sibson's natural-neighbour coordinates ("A brief
+// description of natural neighbour interpolation", 1981): what each cell would lose to the point's own.
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "delaunay/triangulation.h"
+
+namespace radvor::delaunay {
+
+namespace {
+
+constexpr double k_unset = std::numeric_limits<double>::quiet_NaN();
+
+// Relative to an origin of the caller's.
+Vec2 circumcentre(Vec2 a, Vec2 b, Vec2 c) {
+  const Vec2 p = b - a, q = c - a;
+  const double pp = glm::dot(p, p), qq = glm::dot(q, q);
+  return a + Vec2(q.y * pp - p.y * qq, p.x * qq - q.x * pp) / (2 * cross(p, q));
+}
+
+double along_edge(Vec2 a, Vec2 b, double at_a, double at_b, Vec2 point) {
+  const Vec2 edge = b - a;
+  const double share = glm::dot(point - a, edge) / glm::dot(edge, edge);
+  return at_a + share * (at_b - at_a);
+}
+
+}  // namespace
+
+double Triangulation::interpolate_linear(Vec2 point, VertexId* hint) const {
+  const Location at = locate(point, hint);
+  const auto& v = at.vertices;
+  switch (at.where) {
+    case Where::outside:
+      return k_unset;
+    case Where::vertex:
+      return value(v[0]);
+    case Where::edge:
+      return along_edge(positions_[v[0]], positions_[v[1]], value(v[0]), value(v[1]), point);
+    case Where::triangle:
+      break;
+  }
+  const TriangleId t = triangle_of(at.edge);
+  const std::array<double, 3> weights = barycentric(t, point);
+  const auto& corners = mesh_.triangle(t).vertex;
+  return weights[0] * value(corners[0]) + weights[1] * value(corners[1]) + weights[2] * value(corners[2]);
+}
+
+// The cavity that the point would make is bounded by its natural neighbours b. The part of a neighbour's cell that
+// falls to the point has as corners the circumcentres of the old triangles around b and of the two new ones at b.
+double Triangulation::interpolate_natural(Vec2 point, VertexId* hint) const {
+  const Location at = locate(point, hint);
+  if (at.where == Where::outside) {
+    return k_unset;
+  }
+  if (at.where == Where::vertex) {
+    return value(at.vertices[0]);
+  }
+  if (at.where == Where::edge &&
+      (constraint_flags(at.edge) != 0 || is_ghost(triangle_of(at.edge)) || is_ghost(triangle_of(twin(at.edge))))) {
+    // The limit from the inside.
+    const auto& v = at.vertices;
+    return along_edge(positions_[v[0]], positions_[v[1]], value(v[0]), value(v[1]), point);
+  }
+  std::array<std::byte, 4096> room;
+  std::pmr::monotonic_buffer_resource scratch(room.data(), room.size(), memory_);
+  std::pmr::vector<BoundaryEdge> boundary(&scratch);
+  std::pmr::vector<TriangleId> cavity(&scratch);
+  std::pmr::vector<HalfEdge> stack(&scratch);
+  boundary.reserve(32);
+  cavity.reserve(32);
+  stack.reserve(32);
+  Lattice lattice = lattice_;
+  lattice.include(point);
+  collect_cavity(point, triangle_of(at.edge), k_none, lattice, boundary, cavity, stack);
+
+  const auto offset = [&](VertexId v) { return positions_[v] - point; };
+  double weights = 0;
+  double sum = 0;
+  HalfEdge outer_before = boundary.back().outer;
+  Vec2 centre_before = circumcentre(Vec2(0.0), offset(target(outer_before)), offset(origin(outer_before)));
+  for (const BoundaryEdge& edge : boundary) {
+    const VertexId b = target(edge.outer);
+    const Vec2 centre = circumcentre(Vec2(0.0), offset(b), offset(origin(edge.outer)));
+    Vec2 corner = centre;
+    double twice_area = cross(centre_before, centre);
+    // Around b, from the triangle at this side of the cavity to that at the side before.
+    for (HalfEdge h = twin(edge.outer);; h = twin(previous(h))) {
+      const Vec2 following = circumcentre(offset(origin(h)), offset(target(h)), offset(apex(h)));
+      twice_area += cross(corner, following);
+      corner = following;
+      if (twin(previous(h)) == outer_before) {
+        break;
+      }
+    }
+    twice_area += cross(corner, centre_before);
+    weights += twice_area;
+    sum += twice_area * value(b);
+    centre_before = centre;
+    outer_before = edge.outer;
+  }
+  return sum / weights;
+}
+
+}  // namespace radvor::delaunay
