@@ -189,6 +189,17 @@ class CellBuilder {
   // ---- Beyond the star
 
   void flood(HalfEdge first, std::uint32_t triangle_count) {
+    if (!d_.may_have_continuous_constraints()) {
+      clip_by_edges(first, triangle_count);
+      return;
+    }
+    // An edge is a chord only of what is left by all bisectors, and the last of them are seen once edges have clipped.
+    clip_by_sites_beyond_seams(first, triangle_count);
+    clip_by_edges(first, triangle_count);
+    clip_by_sites_beyond_seams(first, triangle_count);
+  }
+
+  void clip_by_edges(HalfEdge first, std::uint32_t triangle_count) {
     auto& stack = out_.stack_;
     stack.clear();
     out_.visited_.clear();
@@ -217,9 +228,6 @@ class CellBuilder {
       out_.visited_.push_back(t);
       stack.push_back(d_.twin(next(h)));
       stack.push_back(d_.twin(previous(h)));
-    }
-    if (d_.may_have_continuous_constraints()) {
-      clip_by_sites_beyond_seams(first, triangle_count);
     }
   }
 
@@ -271,7 +279,8 @@ class CellBuilder {
           const Vec2 to = position(candidate) - at_;
           const double at = 0.5 * glm::dot(to, to) / glm::dot(to, corner.end - at_);
           if (at > 0 && at < share && !is_side(candidate) &&
-              sees(glm::mix(at_ + at * (corner.end - at_), middle, 1e-7), candidate)) {
+              sees(glm::mix(at_ + at * (corner.end - at_), middle, 1e-7), candidate) &&
+              sees(glm::mix(at_ + at * (corner.end - at_), middle, 1e-7), site_)) {
             share = at;
             first_met = candidate;
           }
