@@ -12,6 +12,7 @@
 #include "radiosity/links.h"
 #include "radiosity/occluder_tree.h"
 #include "radiosity/receiver.h"
+#include "radiosity/receiver_blocks.h"
 #include "radiosity/shooting_tree.h"
 #include "radiosity/tracer.h"
 
@@ -21,7 +22,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint32_t k_block = 64;        // receivers whose light is gathered in one task
 constexpr double k_stands_out = 0.02;        // of all unshot power: such a patch shoots by itself
 constexpr double k_share_left_unshot = 0.1;  // of the tolerance: may be missing when the bake has converged
 
@@ -39,22 +39,26 @@ enum class Stage { direct, account, tree, standouts, bounces, done };
 
 struct Bake::State {
   State(Scene given, const BakeOptions& wanted, const VisibilityMaker& maker, Host& lender);
-  ~State();
 
   Host& host;
   BakeOptions options;
-  VisibilityMaker visibility_maker;
   Scene scene;
   std::optional<WeldedScene> welded;
   std::optional<Facets> facets;
   std::optional<Surface> surface;
   std::pmr::vector<std::uint32_t> occluders;  // welded triangle of each triangle that blocks
   std::optional<OccluderTree> occluder_tree;  // absent where it is turned off
-  Visibility* visibility = nullptr;
+  struct Unmake {
+    VisibilityMaker maker;
+    Host& host;
+    void operator()(Visibility* made) const { maker.destroy(maker.user, made, host); }
+  };
+  std::unique_ptr<Visibility, Unmake> visibility;
   std::optional<DirectLight> light;
   std::optional<ShootingTree> tree;
 
   std::pmr::vector<Receiver> receivers;
+  std::optional<ReceiverBlocks> blocks;
   std::pmr::vector<Color> direct, indirect;
   std::pmr::vector<Color> unshot;             // irradiance that each share has not reflected yet
   std::pmr::vector<Color> incoming;           // irradiance of the bounce under way, each sample
@@ -78,7 +82,7 @@ struct Bake::State {
   double seconds = 0;
   double converged = 0;
 
-  std::uint32_t block_count() const { return (static_cast<std::uint32_t>(receivers.size()) + k_block - 1) / k_block; }
+  std::uint32_t block_count() const { return blocks->count(); }
 
   void step();
   void shine();
@@ -97,9 +101,9 @@ struct Bake::State {
 Bake::State::State(Scene given, const BakeOptions& wanted, const VisibilityMaker& maker, Host& lender)
     : host(lender),
       options(wanted),
-      visibility_maker(maker),
       scene(std::move(given)),
       occluders(&host.memory),
+      visibility(nullptr, Unmake{maker, host}),
       receivers(&host.memory),
       direct(&host.memory),
       indirect(&host.memory),
@@ -133,18 +137,13 @@ Bake::State::State(Scene given, const BakeOptions& wanted, const VisibilityMaker
   incoming.assign(samples.size(), Color(0.0));
   unshot.assign(surface->shares().size(), Color(0.0));
   receivers.reserve(samples.size());
-  visibility = visibility_maker.make(visibility_maker.user, {welded->positions, corners}, host);
+  visibility.reset(maker.make(maker.user, {welded->positions, corners}, host));
   for (const Sample& sample : samples) {
     receivers.push_back({sample.point, sample.point + sample.facet_normal * visibility->lift(), sample.normal});
   }
+  blocks.emplace(*surface, receivers, host);
   stats.seconds_setup = seconds_since(begin);
   seconds = stats.seconds_setup;
-}
-
-Bake::State::~State() {
-  if (visibility) {
-    visibility_maker.destroy(visibility_maker.user, visibility, host);
-  }
 }
 
 // Runs work(block, tracer) for a range of blocks in parallel and sums up what was done.
@@ -198,8 +197,7 @@ void Bake::State::shine() {
   }
   const std::uint32_t end = std::min(block_count(), block + 4 * host.jobs.thread_count());
   over_blocks(block, end, [&](std::uint32_t at, Tracer& tracer) {
-    const std::size_t last = std::min<std::size_t>(receivers.size(), std::size_t{at + 1} * k_block);
-    for (std::size_t r = std::size_t{at} * k_block; r < last; ++r) {
+    for (const std::uint32_t r : blocks->block(at)) {
       direct[r] += light->irradiance(source, receivers[r], tracer);
     }
   });
@@ -299,10 +297,9 @@ void Bake::State::shoot_standout() {
   over_blocks(0, block_count(), [&](std::uint32_t at, Tracer& tracer) {
     LinkMaker maker(*tree, occluder_tree ? &*occluder_tree : nullptr, accuracy, &host.memory);
     std::pmr::vector<Link> own(&host.memory);
-    const std::size_t last = std::min<std::size_t>(receivers.size(), std::size_t{at + 1} * k_block);
-    for (std::size_t r = std::size_t{at} * k_block; r < last; ++r) {
+    for (const std::uint32_t r : blocks->block(at)) {
       own.clear();
-      maker.make(receivers[r], std::span(&root, 1), tracer, own);
+      maker.make(receivers[r], std::span(&root, 1), {}, tracer, own);
       incoming[r] = Color(0.0);
       for (const Link& link : own) {
         incoming[r] += sent_along(link, radiosity);
@@ -362,21 +359,25 @@ void Bake::State::bounce() {
   const std::uint32_t end = std::min(block_count(), block + (first ? 4 : 256) * host.jobs.thread_count());
   over_blocks(block, end, [&](std::uint32_t at, Tracer& tracer) {
     BlockLinks& own = links[at];
-    const std::size_t begin = std::size_t{at} * k_block;
-    const std::size_t last = std::min<std::size_t>(receivers.size(), begin + k_block);
+    const auto block_receivers = blocks->block(at);
     if (first) {
       LinkMaker maker(*tree, occluder_tree ? &*occluder_tree : nullptr, accuracy, &host.memory);
       own.links.clear();
       own.first.assign(1, 0);
-      for (std::size_t r = begin; r < last; ++r) {
-        maker.make(receivers[r], lit_roots, tracer, own.links);
+      std::pmr::vector<std::uint8_t> clear(&host.memory);
+      if (occluder_tree) {
+        blocks->find_clear_roots(at, *tree, lit_roots, *occluder_tree, visibility->lift(), clear);
+      }
+      for (const std::uint32_t r : block_receivers) {
+        maker.make(receivers[r], lit_roots, clear, tracer, own.links);
         own.first.push_back(static_cast<std::uint32_t>(own.links.size()));
       }
       own.links.shrink_to_fit();
     }
-    for (std::size_t r = begin; r < last; ++r) {
+    for (std::size_t k = 0; k < block_receivers.size(); ++k) {
+      const std::uint32_t r = block_receivers[k];
       Color gathered(0.0);
-      for (std::uint32_t i = own.first[r - begin]; i < own.first[r - begin + 1]; ++i) {
+      for (std::uint32_t i = own.first[k]; i < own.first[k + 1]; ++i) {
         gathered += sent_along(own.links[i], radiosity);
       }
       incoming[r] = gathered;

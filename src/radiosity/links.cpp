@@ -38,30 +38,37 @@ LinkMaker::LinkMaker(const ShootingTree& tree, const OccluderTree* occluders, co
       weights_(memory),
       blocked_(memory) {}
 
-void LinkMaker::make(const Receiver& receiver, std::span<const std::uint32_t> roots, Tracer& tracer,
-                     std::pmr::vector<Link>& links) {
+void LinkMaker::make(const Receiver& receiver, std::span<const std::uint32_t> roots,
+                     std::span<const std::uint8_t> clear, Tracer& tracer, std::pmr::vector<Link>& links) {
   links_ = &links;
-  for (const std::uint32_t root : roots) {
-    if (root == k_none) {
+  for (std::size_t i = 0; i < roots.size(); ++i) {
+    if (roots[i] == k_none) {
       continue;
     }
-    pending_.push_back(root);
-    while (!pending_.empty()) {
-      const std::uint32_t node = pending_.back();
-      pending_.pop_back();
-      open(node, receiver, tracer);
-      if (targets_.size() >= k_batch) {
-        settle(receiver, tracer);
-      }
+    clear_ = !clear.empty() && clear[i] != 0;
+    pending_.push_back(roots[i]);
+    open_pending(receiver, tracer);
+    if (targets_.size() >= k_batch) {
+      settle_all(receiver, tracer);
     }
   }
-  while (!candidates_.empty() || !pending_.empty()) {
+  settle_all(receiver, tracer);
+}
+
+void LinkMaker::open_pending(const Receiver& receiver, Tracer& tracer) {
+  while (!pending_.empty()) {
+    const std::uint32_t node = pending_.back();
+    pending_.pop_back();
+    open(node, receiver, tracer);
+  }
+}
+
+// Until no node waits for rays; those that are opened because theirs disagree make more.
+void LinkMaker::settle_all(const Receiver& receiver, Tracer& tracer) {
+  clear_ = false;
+  while (!candidates_.empty()) {
     settle(receiver, tracer);
-    while (!pending_.empty()) {
-      const std::uint32_t node = pending_.back();
-      pending_.pop_back();
-      open(node, receiver, tracer);
-    }
+    open_pending(receiver, tracer);
   }
 }
 
@@ -108,6 +115,11 @@ void LinkMaker::open(std::uint32_t index, const Receiver& receiver, Tracer& trac
             : polygon_form_factor(x, n, tree_.polygon(tree_.elements()[node.first_element]), node.piece.normal);
   }
   if (form_factor <= 0) {
+    return;
+  }
+  if (clear_) {
+    ++tracer.counters.skipped_clear;
+    link(index, form_factor, receiver);
     return;
   }
   if (const auto visible = clip(node, form_factor, receiver, tracer)) {

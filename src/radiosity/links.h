@@ -44,8 +44,9 @@ class LinkMaker {
   LinkMaker(const ShootingTree& tree, const OccluderTree* occluders, const LinkAccuracy& accuracy,
             std::pmr::memory_resource* memory);
 
-  void make(const Receiver& receiver, std::span<const std::uint32_t> roots, Tracer& tracer,
-            std::pmr::vector<Link>& links);
+  /// clear: for each root, whether nothing stands between it and the receiver for certain; or empty.
+  void make(const Receiver& receiver, std::span<const std::uint32_t> roots, std::span<const std::uint8_t> clear,
+            Tracer& tracer, std::pmr::vector<Link>& links);
 
  private:
   struct Candidate {
@@ -58,12 +59,15 @@ class LinkMaker {
   void link(std::uint32_t node, double visible, const Receiver& receiver);
   void propose(std::uint32_t node, double form_factor, std::uint32_t ray_count, const Receiver& receiver,
                Tracer& tracer);
+  void open_pending(const Receiver& receiver, Tracer& tracer);
+  void settle_all(const Receiver& receiver, Tracer& tracer);
   void settle(const Receiver& receiver, Tracer& tracer);
   std::optional<double> clip(const TreeNode& node, double form_factor, const Receiver& receiver, Tracer& tracer) const;
 
   const ShootingTree& tree_;
   const OccluderTree* occluders_;  ///< none: rays alone
   LinkAccuracy accuracy_;
+  bool clear_ = false;                       ///< of the root under way
   std::pmr::vector<Link>* links_ = nullptr;  ///< of the receiver under way
   std::pmr::vector<std::uint32_t> pending_;  ///< nodes to look at
   std::pmr::vector<Candidate> candidates_;   ///< nodes that wait for their rays

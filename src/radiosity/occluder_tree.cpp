@@ -70,6 +70,92 @@ class Shaft {
   std::array<Vec3, OccluderTree::k_max_corners> side_;
 };
 
+// The convex hull of two planar quadrilaterals, as planes that bound it: the quadrilaterals' own and, of all planes
+// through an edge of one and a corner of the other, those that have both on one side (Haines and Wallace 1991).
+class Hull {
+ public:
+  Hull(std::span<const Vec3> near, const Vec3& near_normal, std::span<const Vec3> far, const Vec3& far_normal,
+       double lift) {
+    for (const Vec3& corner : near) {
+      bounds_.add(corner);
+    }
+    for (const Vec3& corner : far) {
+      bounds_.add(corner);
+    }
+    add(near_normal, glm::dot(near_normal, near[0]) + lift);
+    add(far_normal, glm::dot(far_normal, far[0]) + lift);
+    add_sides(near, far);
+    add_sides(far, near);
+  }
+
+  bool may_enter(const Box& box) const {
+    if (!box.overlaps(bounds_)) {
+      return false;
+    }
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Vec3& n = planes_[i].normal;
+      const double highest = n.x * (n.x > 0 ? box.high.x : box.low.x) + n.y * (n.y > 0 ? box.high.y : box.low.y) +
+                             n.z * (n.z > 0 ? box.high.z : box.low.z);
+      if (highest <= planes_[i].offset) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  bool may_enter(const std::array<Vec3, 3>& triangle) const {
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Vec3& n = planes_[i].normal;
+      if (std::max({glm::dot(n, triangle[0]), glm::dot(n, triangle[1]), glm::dot(n, triangle[2])}) <=
+          planes_[i].offset) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+ private:
+  struct Plane {
+    Vec3 normal;  // inwards
+    double offset;
+  };
+
+  void add(const Vec3& normal, double offset) { planes_[count_++] = {normal, offset}; }
+
+  void add_sides(std::span<const Vec3> edges, std::span<const Vec3> corners) {
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const Vec3& a = edges[i];
+      const Vec3& b = edges[(i + 1) % edges.size()];
+      for (const Vec3& corner : corners) {
+        Vec3 normal = glm::cross(b - a, corner - a);
+        const double length = glm::length(normal);
+        if (length == 0) {
+          continue;
+        }
+        normal /= length;
+        double least = 0, most = 0;
+        const auto measure = [&](const Vec3& point) {
+          const double height = glm::dot(normal, point - a);
+          least = std::min(least, height);
+          most = std::max(most, height);
+        };
+        std::for_each(edges.begin(), edges.end(), measure);
+        std::for_each(corners.begin(), corners.end(), measure);
+        const double rounding = 1e-12 * glm::length(corner - a);
+        if (count_ < planes_.size() && least >= -rounding && most > rounding) {
+          add(normal, glm::dot(normal, a) + least);
+        } else if (count_ < planes_.size() && most <= rounding && least < -rounding) {
+          add(-normal, -glm::dot(normal, a) - most);
+        }
+      }
+    }
+  }
+
+  Box bounds_;
+  std::array<Plane, 18> planes_;
+  std::size_t count_ = 0;
+};
+
 std::pmr::vector<Box> boxes_of(const Occluders& occluders, std::pmr::memory_resource* memory) {
   std::pmr::vector<Box> boxes(occluders.corners.size() / 3, memory);
   for (std::size_t i = 0; i < 3 * boxes.size(); ++i) {
@@ -84,6 +170,15 @@ OccluderTree::OccluderTree(const Occluders& occluders, std::pmr::memory_resource
     : positions_(occluders.positions),
       corners_(occluders.corners.begin(), occluders.corners.end(), memory),
       boxes_(boxes_of(occluders, memory), memory) {}
+
+bool OccluderTree::clear(std::span<const Vec3> receivers, const Vec3& receiver_normal, std::span<const Vec3> polygon,
+                         const Vec3& normal, double lift) const {
+  const Hull hull(receivers, receiver_normal, polygon, normal, lift);
+  bool clear = true;
+  boxes_.walk([&](const Box& box) { return clear && hull.may_enter(box); },
+              [&](std::uint32_t index) { clear = clear && !hull.may_enter(triangle(index)); });
+  return clear;
+}
 
 std::optional<std::size_t> OccluderTree::between(const Vec3& eye, std::span<const Vec3> polygon, const Vec3& normal,
                                                  double lift, std::span<std::uint32_t> found) const {

@@ -30,6 +30,12 @@ class OccluderTree {
   std::optional<std::size_t> between(const Vec3& eye, std::span<const Vec3> polygon, const Vec3& normal, double lift,
                                      std::span<std::uint32_t> found) const;
 
+  /// Whether nothing stands between any point of a convex polygon of receivers and any point of another polygon: no
+  /// triangle reaches into the convex hull of the two, in front of both their planes by more than lift. False where it
+  /// cannot tell. Both have at most 4 corners, counter-clockwise about their unit normals.
+  bool clear(std::span<const Vec3> receivers, const Vec3& receiver_normal, std::span<const Vec3> polygon,
+             const Vec3& normal, double lift) const;
+
   std::array<Vec3, 3> triangle(std::uint32_t index) const {
     return {positions_[corners_[3 * std::size_t{index}]], positions_[corners_[3 * std::size_t{index} + 1]],
             positions_[corners_[3 * std::size_t{index} + 2]]};
