@@ -25,6 +25,7 @@ class PointIndex {
  private:
   struct State;
   State* state_;
+  std::pmr::memory_resource* memory_;
 };
 
 }  // namespace radvor
