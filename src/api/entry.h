@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <memory_resource>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "base/error.h"
 #include "base/floating_point.h"
 #include "base/host.h"
+#include "visibility/embree_library.h"
 
 /// What radvor_context points to. Every other handle has a member `radvor_context* context`, the one it came from.
 struct radvor_context {
@@ -22,6 +24,8 @@ struct radvor_context {
   radvor_context_desc lent;  ///< the description as given; its embree_path is dead, the one below lives
   radvor::Host host;
   std::pmr::string embree_path;  ///< empty: the system's
+  mutable std::mutex embree_mutex;
+  mutable std::optional<radvor::EmbreeLibrary> embree;  ///< by embree_of(); outlives what is made from the context
 
   static constexpr std::size_t k_error_size = 640;  ///< the function's name and an Error's sentence
   mutable std::mutex error_mutex;                   ///< calls with const handles may fail at the same time

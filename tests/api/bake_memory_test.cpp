@@ -1,0 +1,99 @@
+// Memory refused at one block after another while baking and reading: an error each time, nothing lost, nothing
+// changed.
+#include <gtest/gtest.h>
+#include <radvor.h>
+
+#include <functional>
+#include <vector>
+
+#include "api/engine.h"
+#include "api/light_of.h"
+#include "api/room.h"
+
+namespace radvor::test {
+namespace {
+
+// The first blocks one by one, then at growing distances: a bake asks for thousands.
+std::uint64_t after(std::uint64_t n) {
+  return n < 64 ? n + 1 : n + n / 12;
+}
+
+class BakeMemory : public testing::Test {
+ protected:
+  BakeMemory() { scene_.add(room_.desc()); }
+
+  /// Calls until it works, with memory refused from a later block each time.
+  void retry(const char* what, int at_least, const std::function<radvor_result()>& call) {
+    int refusals = 0;
+    for (std::uint64_t n = 1;; n = after(n)) {
+      const std::size_t blocks = engine_.live_blocks();
+      engine_.refuse_from(n);
+      const radvor_result result = call();
+      engine_.refuse_from(0);
+      if (result == RADVOR_OK) {
+        break;
+      }
+      ++refusals;
+      ASSERT_EQ(result, RADVOR_ERROR_OUT_OF_MEMORY) << what << " at block " << n << ": " << engine_.error();
+      ASSERT_EQ(engine_.live_blocks(), blocks) << what << " at block " << n;
+    }
+    EXPECT_GE(refusals, at_least) << what;
+  }
+
+  Engine engine_;
+  SceneOf scene_{engine_};
+  FloorAndLamp room_;
+};
+
+TEST_F(BakeMemory, RefusedAtAnyBlockOfABake) {
+  const radvor_bake_options options = coarse();
+  radvor_solution* solution = nullptr;
+  retry("radvor_bake", 20, [&] {
+    const radvor_result result = radvor_bake(scene_, &options, &solution);
+    EXPECT_EQ(solution == nullptr, result != RADVOR_OK);
+    return result;
+  });
+  const LightOf light = read_light(solution, 8);
+  radvor_solution_destroy(solution);
+  ASSERT_EQ(radvor_bake(scene_, &options, &solution), RADVOR_OK);
+  EXPECT_TRUE(read_light(solution, 8) == light);
+  radvor_solution_destroy(solution);
+}
+
+TEST_F(BakeMemory, RefusedAtAnyBlockOfReading) {
+  const radvor_bake_options options = coarse();
+  radvor_solution *solution = nullptr, *untroubled = nullptr;
+  ASSERT_EQ(radvor_bake(scene_, &options, &solution), RADVOR_OK) << engine_.error();
+  ASSERT_EQ(radvor_bake(scene_, &options, &untroubled), RADVOR_OK) << engine_.error();
+  std::vector<float> rgb(24);
+  const double position[] = {0.5, 0, 0.5};
+  const float normal[] = {0, 1, 0};
+  radvor_output_mesh mesh{};
+  mesh.struct_size = sizeof mesh;
+  retry("radvor_solution_vertices", 0, [&] {
+    return radvor_solution_vertices(solution, 0, RADVOR_IRRADIANCE, RADVOR_VERTEX_SAMPLE, rgb.data(), 0, 8);
+  });
+  // What is kept in the solution for the next call counts as live: measured by a second call.
+  const auto retry_kept = [&](const char* what, const std::function<radvor_result()>& call) {
+    int refusals = 0;
+    radvor_result result = RADVOR_ERROR_OUT_OF_MEMORY;
+    for (std::uint64_t n = 1; result != RADVOR_OK; n = after(n)) {
+      engine_.refuse_from(n);
+      result = call();
+      engine_.refuse_from(0);
+      refusals += result != RADVOR_OK;
+      ASSERT_TRUE(result == RADVOR_OK || result == RADVOR_ERROR_OUT_OF_MEMORY) << what << ": " << engine_.error();
+    }
+    EXPECT_GT(refusals, 0) << what;
+  };
+  retry_kept("radvor_solution_points", [&] {
+    return radvor_solution_points(solution, RADVOR_IRRADIANCE, 1, position, normal, 0.1, rgb.data(), nullptr);
+  });
+  retry_kept("radvor_solution_mesh", [&] { return radvor_solution_mesh(solution, 0, &mesh); });
+  EXPECT_TRUE(read_light(solution, 8) == read_light(untroubled, 8));
+  radvor_solution_destroy(solution);
+  radvor_solution_destroy(untroubled);
+}
+
+}  // namespace
+}  // namespace radvor::test

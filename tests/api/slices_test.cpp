@@ -1,0 +1,137 @@
+// A bake in one go, in slices, cancelled and gone on with, on any number of threads: the same bytes, readable
+// throughout.
+#include <gtest/gtest.h>
+#include <radvor.h>
+
+#include <string>
+
+#include "api/engine.h"
+#include "api/light_of.h"
+#include "api/room.h"
+
+namespace radvor::test {
+namespace {
+
+struct Baked {
+  explicit Baked(const Lends& lends = {}) : engine(lends), scene(engine) { scene.add(room.desc()); }
+  ~Baked() { radvor_solution_destroy(solution); }
+
+  LightOf light() const { return read_light(solution, 8); }
+
+  Engine engine;
+  SceneOf scene;
+  FloorAndLamp room;
+  radvor_solution* solution = nullptr;
+};
+
+LightOf light_of_one_bake() {
+  Baked baked;
+  const radvor_bake_options options = coarse();
+  EXPECT_EQ(radvor_bake(baked.scene, &options, &baked.solution), RADVOR_OK) << baked.engine.error();
+  return baked.light();
+}
+
+TEST(Slices, OneBakeIsLit) {
+  const LightOf light = light_of_one_bake();
+  EXPECT_GT(light.points[0], 0.1f) << "under the lamp";
+  EXPECT_GT(light.mesh_triangles, 4u);
+}
+
+TEST(Slices, AnySequenceGivesTheSameBytes) {
+  const LightOf expected = light_of_one_bake();
+  for (const double seconds : {1e-9, 1e-3, 1e30}) {
+    Baked baked;
+    const radvor_bake_options options = coarse();
+    ASSERT_EQ(radvor_solution_create(baked.scene, &options, &baked.solution), RADVOR_OK) << baked.engine.error();
+    baked.light();  // dark, but readable
+    radvor_progress progress{};
+    progress.struct_size = sizeof progress;
+    double converged = 0;
+    radvor_result result = RADVOR_TIME_SPENT;
+    for (int slices = 0; result == RADVOR_TIME_SPENT; ++slices) {
+      result = radvor_solution_advance(baked.solution, seconds, &progress);
+      ASSERT_TRUE(result == RADVOR_OK || result == RADVOR_TIME_SPENT) << baked.engine.error();
+      EXPECT_GE(progress.converged, converged) << "it never falls";
+      EXPECT_LE(progress.converged, 1);
+      converged = progress.converged;
+      ASSERT_LT(slices, 1000000);
+    }
+    EXPECT_EQ(converged, 1);
+    EXPECT_GT(progress.sites, 0u);
+    EXPECT_TRUE(baked.light() == expected) << seconds << " seconds a slice";
+  }
+}
+
+TEST(Slices, AnyNumberOfThreadsGivesTheSameBytes) {
+  const LightOf expected = light_of_one_bake();
+  for (const std::uint32_t threads : {1u, 2u, 3u}) {
+    for (const bool lent : {false, true}) {
+      if (!lent && plain_threads_wanted()) {
+        continue;
+      }
+      Baked baked({.memory = true, .threads = lent, .thread_count = threads});
+      const radvor_bake_options options = coarse();
+      ASSERT_EQ(radvor_bake(baked.scene, &options, &baked.solution), RADVOR_OK) << baked.engine.error();
+      EXPECT_TRUE(baked.light() == expected) << threads << " threads, lent: " << lent;
+    }
+  }
+}
+
+// Cancels once the bake has come that far.
+struct Canceller {
+  double share;
+  bool asked = false;
+  bool in_time = false;  ///< asked while there was something left to do
+  int calls = 0;
+
+  static std::int32_t call(void* user, const radvor_progress* progress) {
+    auto& self = *static_cast<Canceller*>(user);
+    EXPECT_EQ(progress->struct_size, sizeof *progress);
+    ++self.calls;
+    self.asked = progress->converged >= self.share;
+    self.in_time = self.in_time || (self.asked && progress->converged < 1);
+    return self.asked ? 1 : 0;
+  }
+};
+
+class Cancelling : public testing::TestWithParam<double> {};
+
+TEST_P(Cancelling, LeavesAReadableSolutionThatCanGoOn) {
+  const LightOf expected = light_of_one_bake();
+  Canceller canceller{GetParam()};
+  Baked baked;
+  radvor_bake_options options = coarse();
+  options.progress = Canceller::call;
+  options.progress_user = &canceller;
+  const radvor_result result = radvor_bake(baked.scene, &options, &baked.solution);
+  EXPECT_EQ(result, canceller.in_time ? RADVOR_CANCELLED : RADVOR_OK) << baked.engine.error();
+  EXPECT_GT(canceller.calls, 0);
+  ASSERT_NE(baked.solution, nullptr);
+  baked.light();
+  radvor_stats stats{};
+  stats.struct_size = sizeof stats;
+  EXPECT_EQ(radvor_solution_stats(baked.solution, &stats), RADVOR_OK);
+  EXPECT_GT(stats.sites, 0u);
+
+  if (GetParam() <= 0.1) {
+    EXPECT_TRUE(canceller.in_time);
+  }
+  canceller.share = 2;
+  EXPECT_EQ(radvor_solution_advance(baked.solution, 0, nullptr), RADVOR_OK) << baked.engine.error();
+  EXPECT_TRUE(baked.light() == expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(AtShares, Cancelling, testing::Values(0.0, 0.1, 0.5, 1.0), [](const auto& tested) {
+  return std::to_string(static_cast<int>(100 * tested.param)) + "percent";
+});
+
+TEST(Slices, TimeIsKept) {
+  Baked baked;
+  radvor_bake_options options = coarse();
+  options.max_seconds = 1e-9;
+  EXPECT_EQ(radvor_bake(baked.scene, &options, &baked.solution), RADVOR_TIME_SPENT) << baked.engine.error();
+  baked.light();
+}
+
+}  // namespace
+}  // namespace radvor::test
