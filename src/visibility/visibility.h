@@ -39,15 +39,16 @@ class Visibility {
   /// The nearest triangle along from + t * direction, t > 0; direction of any length > 0.
   virtual FirstHit first_hit(const Vec3& from, const Vec3& direction) const = 0;
 
-  /// Scene units by which an end must stand off a surface so that rounding (of the positions to float inside) cannot
-  /// make the surface block it: from the precision of the recentred coordinates, not a fixed epsilon.
+  /// Scene units by which an end must stand off a surface so that rounding cannot make the surface, or its neighbours
+  /// in the plane, block it: from the precision of the coordinates, not a fixed epsilon. Clears triangles up to 100
+  /// times as long as they are high; thinner ones may still block a segment from their own surface here and there.
   virtual double lift() const = 0;
 
-  /// Bytes held by the acceleration structure (0 where it is not counted).
+  /// Bytes that the acceleration structure holds beside those from the memory resource; 0 where there are none.
   virtual std::uint64_t bytes() const = 0;
 };
 
-/// World-space triangles that block; positions and corners are copied before the constructors below return.
+/// World-space triangles that block, finite; what is needed of them is copied by the constructors of the answers.
 struct Occluders {
   std::span<const Vec3> positions;
   std::span<const std::uint32_t> corners;  ///< 3 a triangle, indices into positions

@@ -141,9 +141,9 @@ TEST_F(Embree, TrianglesWithoutAreaBlockNothing) {
   soup.add(Vec3(0.1, 0.2, 0.3), Vec3(0.2, 0.4, 0.6), Vec3(0.4, 0.8, 1.2));
   const EmbreeVisibility embree(library_, soup.occluders(), host_);
   Random random(3);
-  std::vector<Segment> segments;
-  for (int i = 0; i < 1000; ++i) {
-    segments.push_back({2.0 * random.in_cube(), 2.0 * random.in_cube()});
+  std::vector<Segment> segments(1000);
+  for (Segment& segment : segments) {
+    segment = {2.0 * random.in_cube(), 2.0 * random.in_cube()};
   }
   EXPECT_EQ(answers(embree, segments), std::vector<std::uint8_t>(segments.size(), 0));
   TriangleSoup point;
@@ -191,10 +191,8 @@ TEST_F(Embree, NothingSlipsThroughButAtCorners) {
     std::vector<std::uint8_t> blocked(to.size());
     embree.blocked_from(from, to, blocked.data());
     EXPECT_EQ(std::count(blocked.begin(), blocked.end(), 0), 0);
-    std::vector<Segment> segments;
-    for (const Vec3& end : to) {
-      segments.push_back({from, end});
-    }
+    std::vector<Segment> segments(to.size());
+    std::transform(to.begin(), to.end(), segments.begin(), [&](const Vec3& end) { return Segment{from, end}; });
     const auto unpacked = answers(embree, segments);
     EXPECT_EQ(std::count(unpacked.begin(), unpacked.end(), 0), 0);
 
