@@ -18,24 +18,29 @@ class EdgeSites {
  public:
   /// a, b: the edge's ends, in the welded order; spacing > 0.
   EdgeSites(const Vec3& a, const Vec3& b, double spacing) : middle_(0.5 * (a + b)), spacing_(spacing) {
-    const double length = glm::distance(a, b);
-    direction_ = length > 0 ? (b - a) / length : Vec3(0.0);
-    const double outward = std::floor(0.5 * length / spacing - k_half_spacing);
+    length_ = glm::distance(a, b);
+    direction_ = length_ > 0 ? (b - a) / length_ : Vec3(0.0);
+    const double outward = std::floor(0.5 * length_ / spacing - k_half_spacing);
     steps_ = outward >= 0 ? static_cast<std::int64_t>(std::fmin(outward, k_most_steps)) : -1;
   }
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(2 * steps_ + 1 > 0 ? 2 * steps_ + 1 : 0); }
 
   /// From a to b; index < count.
-  Vec3 position(std::uint32_t index) const {
-    return middle_ + (static_cast<double>(static_cast<std::int64_t>(index) - steps_) * spacing_) * direction_;
-  }
+  Vec3 position(std::uint32_t index) const { return middle_ + from_middle(index) * direction_; }
+
+  /// Where it lies between a (0) and b (1).
+  double part(std::uint32_t index) const { return 0.5 + from_middle(index) / length_; }
 
  private:
   static constexpr double k_most_steps = 1 << 24;
 
+  double from_middle(std::uint32_t index) const {
+    return static_cast<double>(static_cast<std::int64_t>(index) - steps_) * spacing_;
+  }
+
   Vec3 middle_, direction_;
-  double spacing_;
+  double length_, spacing_;
   std::int64_t steps_;
 };
 

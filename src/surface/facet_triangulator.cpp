@@ -22,6 +22,10 @@ constexpr double k_least_patch = 0.5;
 // folded when it was rounded into the plane.
 constexpr double k_area_tolerance = 0.01;
 
+// Border sites are rounded to a grid finer than the frame's, as fine as leaves differences of coordinates exact: their
+// place along the edge is what counts, and a facet's area is that of its corners' polygon to 1e-14.
+constexpr double k_border_grid = 0x1p-10;
+
 // How well a border edge names the source of a share's normal and colour.
 enum class Claim : std::uint8_t { none, crossing, arriving, leaving };
 
@@ -86,37 +90,42 @@ delaunay::VertexId FacetTriangulator::corner(std::uint32_t welded_vertex) const 
   return static_cast<delaunay::VertexId>(at - outline_.vertices.begin());
 }
 
+// Sites first, then each piece of border between neighbours: rounded sites make the border bend by a unit here and
+// there, and no piece is in the way of a site that is still to come.
 bool FacetTriangulator::insert_borders(delaunay::Triangulation& triangulation) {
+  const double unit = k_border_grid * in_.facet().frame.unit;
+  std::pmr::vector<Vec2> points(in_.memory);
   for (const OutlineEdge& edge : outline_.edges) {
     const Edge& ends = in_.welded.edges[edge.edge];
-    const delaunay::VertexId a = corner(ends.a);
-    const delaunay::VertexId b = corner(ends.b);
-    triangulation.constrain(a, b, edge.flags);
-    if (triangulation.constraint_flags(a, b) == 0) {
-      return false;  // a corner lies on it, though it is not a T-junction in space
-    }
-    const Segment segment{triangulation.position(a), triangulation.position(b)};
+    const Segment segment{triangulation.position(corner(ends.a)), triangulation.position(corner(ends.b))};
     (edge.flags == delaunay::constraint::k_border ? borders_ : inner_).push_back(segment);
     if (edge.flags & delaunay::constraint::k_blocking) {
       walls_.push_back(segment);
     }
-  }
-  // All constraints first: a border site just beside the line must not be in the way of one.
-  const Frame& frame = in_.facet().frame;
-  for (const OutlineEdge& edge : outline_.edges) {
-    const Edge& ends = in_.welded.edges[edge.edge];
-    const std::uint32_t count = in_.borders.count_on_edge(edge.edge);
     const EdgeSites sites = in_.borders.along(edge.edge);
     first_of_chain_.push_back(static_cast<std::uint32_t>(chains_.size()));
     chains_.push_back(corner(ends.a));
-    for (std::uint32_t index = 0; index < count; ++index) {
-      const Vec2 point = frame.to_plane(sites.position(index));
-      chains_.push_back(triangulation.split(chains_.back(), corner(ends.b), point));
+    for (std::uint32_t index = 0; index < in_.borders.count_on_edge(edge.edge); ++index) {
+      const Vec2 point = segment.a + sites.part(index) * (segment.b - segment.a);
+      points.push_back({std::nearbyint(point.x / unit) * unit, std::nearbyint(point.y / unit) * unit});
+      chains_.push_back(static_cast<delaunay::VertexId>(site_of_vertex_.size()));
       site_of_vertex_.push_back(in_.borders.first_on_edge(edge.edge) + index);
     }
     chains_.push_back(corner(ends.b));
   }
   first_of_chain_.push_back(static_cast<std::uint32_t>(chains_.size()));
+  triangulation.insert_many(points, nullptr);  // numbered in the order given, unless two fall together
+  if (triangulation.vertex_count() != site_of_vertex_.size()) {
+    return false;
+  }
+  for (std::size_t k = 0; k < outline_.edges.size(); ++k) {
+    for (std::uint32_t at = first_of_chain_[k]; at + 1 < first_of_chain_[k + 1]; ++at) {
+      triangulation.constrain(chains_[at], chains_[at + 1], outline_.edges[k].flags);
+      if (triangulation.constraint_flags(chains_[at], chains_[at + 1]) == 0) {
+        return false;  // another site lies on it, though not in space
+      }
+    }
+  }
   return true;
 }
 
