@@ -25,12 +25,19 @@ void Triangulation::insert_many(std::span<const Vec2> points, VertexId* vertices
   const bool from_nothing = vertex_count_ == 0 && positions_.empty();
   const Lattice lattice = lattice_;
   const auto work = [&] { insert_all(points, vertices); };
+  const auto make_hints = [&] {
+    if (hints_.is_too_coarse(vertex_count_)) {
+      hints_.rebuild(vertex_count_, positions_, [&](VertexId v) { return is_vertex(v); });
+    }
+  };
   if (!from_nothing) {
     transact(work);
+    make_hints();
     return;
   }
   try {
     work();
+    make_hints();
   } catch (...) {
     mesh_.clear();
     positions_.clear();

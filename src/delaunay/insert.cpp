@@ -41,7 +41,7 @@ VertexId Triangulation::insert(Vec2 point, VertexId hint) {
   changed_.clear();
   Location location;
   if (vertex_count_ >= 2) {
-    location = locate_from(point, start_near(hint), lattice_);
+    location = locate_from(point, start_near(point, hint), lattice_);
   } else if (vertex_count_ == 1) {
     location = locate(point);
   }
@@ -70,6 +70,7 @@ VertexId Triangulation::insert_new(Vec2 point, const Location& location) {
     place(p, location);
   }
   report_star(p);
+  note_for_hints(p);
   return p;
 }
 

@@ -23,7 +23,7 @@ Location Triangulation::locate(Vec2 point, VertexId* hint) const {
   } else {
     Lattice lattice = lattice_;
     lattice.include(point);
-    location = locate_from(point, start_near(hint ? *hint : k_none), lattice);
+    location = locate_from(point, start_near(point, hint ? *hint : k_none), lattice);
   }
   if (hint) {
     *hint = location.vertices[0];
@@ -34,8 +34,22 @@ Location Triangulation::locate(Vec2 point, VertexId* hint) const {
   return location;
 }
 
-HalfEdge Triangulation::start_near(VertexId hint) const {
-  return mesh_.out(hint < vertex_bound() && is_vertex(hint) ? hint : last_);
+HalfEdge Triangulation::start_near(Vec2 point, VertexId hint) const {
+  if (!(hint < vertex_bound() && is_vertex(hint))) {
+    hint = hints_.near(point);
+    if (!(hint < vertex_bound() && is_vertex(hint))) {
+      hint = last_;
+    }
+  }
+  return mesh_.out(hint);
+}
+
+void Triangulation::note_for_hints(VertexId vertex) {
+  if (hints_.is_too_coarse(vertex_count_)) {
+    hints_.rebuild(vertex_count_, positions_, [&](VertexId v) { return is_vertex(v); });
+  } else {
+    hints_.note(positions_[vertex], vertex);
+  }
 }
 
 Location Triangulation::describe(Where where, HalfEdge h) const {
@@ -72,7 +86,9 @@ Location Triangulation::locate_from(Vec2 point, HalfEdge start, const Lattice& l
     h = twin(h);
     entry_side = 1;
   }
-  const auto most_steps = static_cast<std::uint64_t>(64 + 8 * std::sqrt(static_cast<double>(vertex_count_)));
+  // Without constraints a visibility walk cannot go round in circles.
+  const auto most_steps =
+      constrained_ ? static_cast<std::uint64_t>(64 + 8 * std::sqrt(static_cast<double>(vertex_count_))) : UINT64_MAX;
   for (std::uint64_t step = 0; step < most_steps; ++step) {
     const VertexId c = apex(h);
     if (c == k_infinite) {

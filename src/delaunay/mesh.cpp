@@ -161,13 +161,11 @@ void Mesh::rollback() noexcept {
   for (const Saved& saved : saved_) {
     triangles_[saved.id] = saved.record;
   }
-  // A vertex whose half-edge changed is a corner of a record that did.
-  for (const Saved& saved : saved_) {
-    if (!(saved.record.state & Triangle::k_free)) {
-      for (std::uint32_t corner = 0; corner < 3; ++corner) {
-        if (saved.record.vertex[corner] != k_infinite) {
-          outs_[saved.record.vertex[corner]] = half_edge(saved.id, corner);
-        }
+  // Memory may have run out between two records of one step, so which vertices lost their half-edges is not known.
+  for (TriangleId t = 0; t < saved_records_ && !saved_.empty(); ++t) {
+    for (std::uint32_t corner = 0; corner < 3 && !is_free(t); ++corner) {
+      if (triangles_[t].vertex[corner] != k_infinite) {
+        outs_[triangles_[t].vertex[corner]] = half_edge(t, corner);
       }
     }
   }

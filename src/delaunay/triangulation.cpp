@@ -14,6 +14,7 @@ Triangulation::Triangulation(std::pmr::memory_resource* memory)
       mesh_(memory),
       positions_(memory),
       values_(memory),
+      hints_(memory),
       reused_(memory),
       changed_(memory),
       stack_(memory),

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/vector.h"
+#include "delaunay/hint_grid.h"
 #include "delaunay/mesh.h"
 #include "delaunay/predicates.h"
 
@@ -240,7 +241,8 @@ class Triangulation {
   void renumber(VertexId first, std::span<const VertexId> renumbered, VertexId end);
 
   // locate.cpp
-  HalfEdge start_near(VertexId hint) const;
+  HalfEdge start_near(Vec2 point, VertexId hint) const;
+  void note_for_hints(VertexId vertex);
   Location locate_from(Vec2 point, HalfEdge start, const Lattice& lattice) const;
   Location straight_walk(Vec2 point, VertexId start, const Lattice& lattice) const;
   Location walk_chain(Vec2 point, HalfEdge start, const Lattice& lattice) const;
@@ -295,6 +297,7 @@ class Triangulation {
   bool marked_ = false;       // by mark_domain
   VertexId last_ = k_none;    // where the last edit was
   Lattice lattice_;
+  HintGrid hints_;
 
   std::pmr::vector<VertexId> reused_;  // free ids that the open transaction took
 
