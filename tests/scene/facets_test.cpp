@@ -328,9 +328,9 @@ std::set<std::set<std::array<double, 9>>> as_sets(const WeldedScene& welded, con
     std::set<std::array<double, 9>> places;
     for (const std::uint32_t t : facets.triangles_of(f)) {
       auto v = welded.triangles[t].vertices;
-      std::ranges::rotate(v, std::ranges::min_element(v, [&](std::uint32_t a, std::uint32_t b) {
-                            return lies_before(welded.positions[a], welded.positions[b]);
-                          }));
+      const auto first = std::ranges::min_element(
+          v, [&](std::uint32_t a, std::uint32_t b) { return lies_before(welded.positions[a], welded.positions[b]); });
+      std::rotate(v.begin(), first, v.end());
       std::array<double, 9> place;
       for (std::size_t i = 0; i < 9; ++i) {
         place[i] = welded.positions[v[i / 3]][static_cast<glm::length_t>(i % 3)];
