@@ -293,7 +293,7 @@ void Bake::State::shoot_standout() {
   stats.absorbed_back_power += power * fates[patch].backs;
 
   LinkAccuracy accuracy;
-  accuracy.least_rays = 4;  // more is at stake than where everything shoots together
+  accuracy.least_rays = 8;  // more is at stake than where everything shoots together
   over_blocks(0, block_count(), [&](std::uint32_t at, Tracer& tracer) {
     LinkMaker maker(*tree, occluder_tree ? &*occluder_tree : nullptr, accuracy, &host.memory);
     std::pmr::vector<Link> own(&host.memory);
@@ -399,13 +399,13 @@ void Bake::State::bounce() {
 // Half of the way is direct light and the first bounce, by blocks done; the rest is the logarithm of what is left.
 void Bake::State::report_convergence() {
   double now = 0;
-  const double blocks = std::max(1u, block_count());
+  const double all = std::max(1u, block_count());
   if (stage == Stage::done) {
     now = 1;
   } else if (stage == Stage::direct) {
-    now = 0.2 * (source + block / blocks) / std::max(1u, light->source_count());
+    now = 0.2 * (source + block / all) / std::max(1u, light->source_count());
   } else if (stage == Stage::bounces && bounces == 0) {
-    now = 0.25 + 0.5 * block / blocks;
+    now = 0.25 + 0.5 * block / all;
   } else if (stage == Stage::bounces) {
     const double goal = std::log(k_share_left_unshot * options.tolerance);
     const double made = first_unshot > 0 ? std::log(std::max(previous_unshot / first_unshot, 1e-300)) : goal;

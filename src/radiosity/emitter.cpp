@@ -127,11 +127,11 @@ Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tr
     const Part part = stack[--size];
     std::array<Part, 4> children;
     std::size_t count = 0;
-    for (const auto& corners : quarter(part.corners)) {
-      const double form_factor = polygon_form_factor(receiver.point, receiver.normal, corners, emitter.normal);
+    for (const auto& quarter_corners : quarter(part.corners)) {
+      const double form_factor = polygon_form_factor(receiver.point, receiver.normal, quarter_corners, emitter.normal);
       ++tracer.counters.form_factors;
       if (form_factor > 0) {
-        children[count++] = {corners, form_factor, part.depth + 1};
+        children[count++] = {quarter_corners, form_factor, part.depth + 1};
       }
     }
     settle(std::span(children.data(), count));

@@ -122,9 +122,11 @@ void LinkMaker::open(std::uint32_t index, const Receiver& receiver, Tracer& trac
     link(index, form_factor, receiver);
     return;
   }
-  if (const auto visible = clip(node, form_factor, receiver, tracer)) {
-    link(index, *visible, receiver);
-    return;
+  if (form_factor > accuracy_.clip_above) {
+    if (const auto visible = clip(node, form_factor, receiver, tracer)) {
+      link(index, *visible, receiver);
+      return;
+    }
   }
   const double wanted = std::ceil(form_factor * accuracy_.rays_per_hemisphere);
   const auto rays = static_cast<std::uint32_t>(

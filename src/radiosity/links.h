@@ -30,11 +30,12 @@ Color sent_along(const Link& link, std::span<const NodeLight> light);
 /// How much a link may cost and how wrong it may be.
 struct LinkAccuracy {
   double rays_per_hemisphere = 1024;  ///< a node gets this times its form factor, within the bounds below
-  std::uint32_t least_rays = 2;       ///< for any node
+  std::uint32_t least_rays = 4;       ///< for any node
   std::uint32_t most_rays = 16;
   double separation = 5;          ///< an inner node stands for its elements from this many radii on
   double leaf_separation = 6;     ///< a leaf's kernel stands for its polygon from this many radii on
   std::size_t most_clipped = 24;  ///< a leaf whose rays disagree is clipped by up to so many triangles
+  double clip_above = 1e-3;       ///< a node of less than this form factor is left to rays
   double splittable = 2e-4;       ///< an inner node of more than this form factor is opened where its rays disagree
 };
 

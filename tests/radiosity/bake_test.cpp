@@ -25,7 +25,7 @@ BakeOptions coarse(double tolerance) {
 
 // Every surface emits radiance 1 and reflects rho: outgoing radiance is 1 / (1 - rho) everywhere, corners included.
 void expect_furnace(SceneBuilder& builder, double rho) {
-  BakeOptions options = coarse(0.01);
+  BakeOptions options = coarse(0.005);
   TestBake bake(builder.take(), options);
   ASSERT_EQ(bake.run(), BakeStatus::converged);
   const auto samples = (*bake).surface().samples();
