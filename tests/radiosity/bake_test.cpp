@@ -15,16 +15,19 @@ namespace {
 
 constexpr double k_pi = 3.14159265358979323846;
 
-BakeOptions coarse(double tolerance) {
+BakeOptions coarse(double tolerance, double patch_spacing = 0.2) {
   BakeOptions options;
   options.tolerance = options.spacing.tolerance = tolerance;
-  options.spacing.patch_spacing = 0.2;
+  options.spacing.patch_spacing = patch_spacing;
   options.spacing.element_levels = 1;
   return options;
 }
 
 // Every surface emits radiance 1 and reflects rho: outgoing radiance is 1 / (1 - rho) everywhere, corners included.
 void expect_furnace(SceneBuilder& builder, double rho) {
+  if (test::plain_threads_wanted()) {
+    GTEST_SKIP() << "says nothing of threads, and takes minutes by brute force";
+  }
   BakeOptions options = coarse(0.005);
   TestBake bake(builder.take(), options);
   ASSERT_EQ(bake.run(), BakeStatus::converged);
@@ -83,6 +86,9 @@ TEST_P(Furnace, RoomWithFloatingBox) {
 
 TEST(Enclosure, AreaMeanOfPointLightInCubeOfCie171Case58) {
   // Any closed enclosure of uniform albedo: area means E_direct = Phi / S and E_indirect = rho Phi / (S (1 - rho)).
+  if (test::plain_threads_wanted()) {
+    GTEST_SKIP() << "says nothing of threads, and takes minutes by brute force";
+  }
   for (const double rho : {0.2, 0.8}) {
     SceneBuilder builder;
     builder.box({0, 0, 0}, {4, 4, 4}, true, builder.material(Color(rho)));
@@ -91,7 +97,7 @@ TEST(Enclosure, AreaMeanOfPointLightInCubeOfCie171Case58) {
     lamp.color = Color(10000 / (4 * k_pi));
     builder.scene.lights.push_back(lamp);
     BakeOptions options = coarse(0.01);
-    options.spacing.patch_spacing = 0.4;
+    options.spacing.patch_spacing = 0.5;
     options.spacing.element_levels = 2;
     TestBake bake(builder.take(), options);
     bake.run();
@@ -155,7 +161,7 @@ TEST(Determinism, SameBytesForAnyThreadsAndSlices) {
   std::vector<Color> direct, indirect;
   for (const std::uint32_t threads : {1u, 2u, 3u}) {
     for (const double slice : {0.0, 0.01}) {
-      TestBake bake(room_with_box_and_lamp(), coarse(0.02), threads);
+      TestBake bake(room_with_box_and_lamp(), coarse(0.02, 0.35), threads);
       ASSERT_EQ(bake.run(slice), BakeStatus::converged);
       const std::vector<Color> d((*bake).direct().begin(), (*bake).direct().end());
       const std::vector<Color> i((*bake).indirect().begin(), (*bake).indirect().end());
@@ -184,7 +190,7 @@ double mean_irradiance(Scene scene, const BakeOptions& options) {
 }
 
 TEST(Invariance, ScaleTranslationRotation) {
-  const BakeOptions options = coarse(0.02);
+  const BakeOptions options = coarse(0.02, 0.3);
   const double base = mean_irradiance(room_with_box_and_lamp(), options);
   for (const double scale : {1e-3, 1e3}) {
     BakeOptions scaled = options;
