@@ -211,24 +211,19 @@ void Triangulation::collect_cavity(Vec2 point, TriangleId start, HalfEdge crosse
 //            \    /
 //              p
 void Triangulation::fill_cavity(VertexId p) {
-  HalfEdge first = k_none;
-  HalfEdge before = k_none;  // edge 2 of the triangle before
-  for (std::size_t i = 0; i < boundary_.size(); ++i) {
-    const HalfEdge outer = boundary_[i].outer;
-    const VertexId a = origin(outer);
-    const VertexId b = target(outer);
+  const std::size_t size = boundary_.size();
+  TriangleId before = k_none;
+  const TriangleId first = cavity_[0];
+  for (std::size_t i = 0; i < size; ++i) {
     const TriangleId t = i < cavity_.size() ? cavity_[i] : mesh_.allocate();
-    mesh_.set_triangle(t, p, b, a, boundary_[i].state);
-    mesh_.write(t).constraint[1] = mesh_.constraint(outer);
-    mesh_.link(half_edge(t, 1), outer);
-    if (before != k_none) {
-      mesh_.link(before, half_edge(t, 0));
-    } else {
-      first = half_edge(t, 0);
+    mesh_.set_fan_triangle(t, p, boundary_[i].outer, boundary_[i].state);
+    if (i > 0) {
+      mesh_.link(half_edge(before, 2), half_edge(t, 0));
     }
-    before = half_edge(t, 2);
+    before = t;
   }
-  mesh_.link(before, first);
+  mesh_.link(half_edge(before, 2), half_edge(first, 0));
+  mesh_.set_out(p, half_edge(before, 0));
 }
 
 }  // namespace radvor::delaunay

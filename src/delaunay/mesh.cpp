@@ -65,23 +65,6 @@ void Mesh::release(TriangleId t) {
   ++free_count_;
 }
 
-void Mesh::link(HalfEdge a, HalfEdge b) {
-  write(triangle_of(a)).twin[corner_of(a)] = b;
-  write(triangle_of(b)).twin[corner_of(b)] = a;
-}
-
-void Mesh::set_triangle(TriangleId t, VertexId a, VertexId b, VertexId c, std::uint8_t state) {
-  Triangle& record = write(t);
-  record.vertex = {a, b, c};
-  record.constraint = {};
-  record.state = state;
-  for (std::uint32_t corner = 0; corner < 3; ++corner) {
-    if (record.vertex[corner] != k_infinite) {
-      outs_[record.vertex[corner]] = half_edge(t, corner);
-    }
-  }
-}
-
 void Mesh::set_constraint(HalfEdge h, std::uint8_t flags) {
   const HalfEdge other = twin(h);
   write(triangle_of(h)).constraint[corner_of(h)] = flags;

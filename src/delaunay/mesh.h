@@ -102,8 +102,39 @@ class Mesh {
     }
     return triangles_[t];
   }
-  void link(HalfEdge a, HalfEdge b);
-  void set_triangle(TriangleId t, VertexId a, VertexId b, VertexId c, std::uint8_t state);
+  void link(HalfEdge a, HalfEdge b) {
+    write(triangle_of(a)).twin[corner_of(a)] = b;
+    write(triangle_of(b)).twin[corner_of(b)] = a;
+  }
+  /// Without constraints; its twins are to be linked.
+  void set_triangle(TriangleId t, VertexId a, VertexId b, VertexId c, std::uint8_t state) {
+    Triangle& record = write(t);
+    record.vertex = {a, b, c};
+    record.constraint = {};
+    record.state = state;
+    for (std::uint32_t corner = 0; corner < 3; ++corner) {
+      if (record.vertex[corner] != k_infinite) {
+        outs_[record.vertex[corner]] = half_edge(t, corner);
+      }
+    }
+  }
+  /// A triangle of a fan around p: (p, b, a) inside of the half-edge a-b, whose constraint it shares; no twins at p
+  /// yet.
+  void set_fan_triangle(TriangleId t, VertexId p, HalfEdge outer, std::uint8_t state) {
+    const Triangle& beyond = write(triangle_of(outer));
+    const std::uint32_t corner = corner_of(outer);
+    const VertexId a = beyond.vertex[corner];
+    const VertexId b = beyond.vertex[corner == 2 ? 0 : corner + 1];
+    triangles_[triangle_of(outer)].twin[corner] = half_edge(t, 1);
+    Triangle& record = write(t);
+    record.vertex = {p, b, a};
+    record.constraint = {0, beyond.constraint[corner], 0};
+    record.state = state;
+    record.twin[1] = outer;
+    if (b != k_infinite) {
+      outs_[b] = half_edge(t, 1);
+    }
+  }
   /// The origin of h becomes another vertex.
   void replace_corner(HalfEdge h, VertexId v) {
     write(triangle_of(h)).vertex[corner_of(h)] = v;
