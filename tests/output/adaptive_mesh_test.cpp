@@ -186,6 +186,32 @@ TEST(AdaptiveMesh, MergedTrianglesWithOneMapLeaveNoSplit) {
   }
 }
 
+TEST(AdaptiveMesh, CornersKeepTheirBitsWhateverTheTransformAndTheMerging) {
+  Mesh mesh = grid(24, 24);
+  for (glm::vec3& p : mesh.positions) {
+    p = {0.1f + 0.3f * p.x, 0.2f + 0.4f * p.y, 0.9f};
+  }
+  for (glm::vec2& uv : mesh.uvs) {
+    uv = {0.123f + 3.7f * uv.x, 0.771f - 2.3f * uv.y};  // one affine map but for rounding
+  }
+  const double c = std::cos(0.7);
+  const double s = std::sin(0.7);
+  mesh.transform = {1.3 * c, -1.3 * s, 0, 12.3, 1.3 * s, 1.3 * c, 0, -4e8, 0, 0, 1.3, 7.89};
+  LitScene scene({std::move(mesh)}, 50);
+  ASSERT_EQ(scene.facets().facets.size(), 1u);
+  const AdaptiveMesh output = make(scene);
+  EXPECT_LT(output.materials.size(), 24u * 24) << "fewer than the input's: its triangles were merged";
+  const Mesh& input = scene.scene().meshes[0];
+  for (std::size_t corner = 0; corner < input.positions.size(); ++corner) {
+    if (corner % 25 != 0 && corner % 25 != 24 && corner > 24 && corner < 24 * 25) {
+      continue;  // inside of the facet
+    }
+    const auto found = std::ranges::find(output.positions, input.positions[corner]);
+    ASSERT_NE(found, output.positions.end()) << "corner " << corner;
+    EXPECT_EQ(output.uvs[static_cast<std::size_t>(found - output.positions.begin())], input.uvs[corner]);
+  }
+}
+
 TEST(AdaptiveMesh, UvSeamsSplitVerticesAndNothingElseDoes) {
   Mesh mesh = grid(4, 1);  // columns 2 and 3 get UVs of their own
   for (const std::size_t middle : {2u, 7u}) {
