@@ -111,7 +111,8 @@ void fill_unused(std::span<const std::uint32_t> welded_vertex_of, std::pmr::vect
   for (std::uint32_t vertex = 0; vertex < means.size(); ++vertex) {
     order.push_back(vertex);
   }
-  std::ranges::stable_sort(order, {}, [&](std::uint32_t vertex) { return welded_vertex_of[vertex]; });
+  // Not stable_sort, whose buffer is not the host's memory.
+  std::ranges::sort(order, {}, [&](std::uint32_t vertex) { return std::pair(welded_vertex_of[vertex], vertex); });
   for (std::size_t first = 0, last = 0; first < order.size(); first = last) {
     Mean all;
     while (last < order.size() && welded_vertex_of[order[last]] == welded_vertex_of[order[first]]) {
