@@ -8,8 +8,9 @@ namespace radvor::delaunay {
 void Triangulation::start_chain(VertexId a, VertexId p) {
   const TriangleId left = mesh_.allocate();
   const TriangleId right = mesh_.allocate();
-  mesh_.set_triangle(left, a, p, k_infinite, 0);
-  mesh_.set_triangle(right, p, a, k_infinite, 0);
+  const std::uint8_t state = marked_ ? Triangle::k_outside : std::uint8_t{0};
+  mesh_.set_triangle(left, a, p, k_infinite, state);
+  mesh_.set_triangle(right, p, a, k_infinite, state);
   mesh_.link(half_edge(left, 0), half_edge(right, 0));
   mesh_.link(half_edge(left, 1), half_edge(right, 2));
   mesh_.link(half_edge(left, 2), half_edge(right, 1));

@@ -235,6 +235,16 @@ TEST(domain, holes_islands_and_what_is_outside) {
   }
 }
 
+TEST(domain, marks_outlive_all_edges) {  // found by fuzzing
+  Triangulation d(std::pmr::new_delete_resource());
+  d.insert({0, 0});
+  d.insert({4, 0});
+  d.mark_domain();
+  d.remove(1);
+  d.insert({2, 4});
+  EXPECT_NO_THROW(d.validate());
+}
+
 TEST(domain, an_open_border_is_an_error) {
   Triangulation d(std::pmr::new_delete_resource());
   d.insert({0, 0});
