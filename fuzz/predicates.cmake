@@ -1,1 +1,1 @@
-target_link_libraries(predicates_fuzz PRIVATE radvor_core gmpxx gmp)
+target_link_libraries(predicates_fuzz PRIVATE gmpxx gmp)
