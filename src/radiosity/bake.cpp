@@ -22,7 +22,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double k_stands_out = 0.02;        // of all unshot power: such a patch shoots by itself
+// A patch shoots by itself, once, while it has this share of all unshot power, and so many times its even share. In a
+// room of few patches none stands out, and links make every later bounce cheaper than one such shot.
+constexpr double k_stands_out = 0.02;
+constexpr double k_times_even_share = 16;
 constexpr double k_share_left_unshot = 0.1;  // of the tolerance: may be missing when the bake has converged
 
 double seconds_since(Clock::time_point begin) {
@@ -64,6 +67,7 @@ struct Bake::State {
   std::pmr::vector<Color> incoming;           // irradiance of the bounce under way, each sample
   std::pmr::vector<NodeLight> radiosity;      // of the tree's nodes: what is being shot
   std::pmr::vector<Fate> fates;               // of the tree's roots
+  std::pmr::vector<std::uint8_t> stood_out;   // patches that have shot by themselves
   std::pmr::vector<std::uint32_t> lit_roots;  // roots that reflect anything at all
   struct BlockLinks {
     explicit BlockLinks(std::pmr::memory_resource* memory) : links(memory), first(memory) {}
@@ -111,6 +115,7 @@ Bake::State::State(Scene given, const BakeOptions& wanted, const VisibilityMaker
       incoming(&host.memory),
       radiosity(&host.memory),
       fates(&host.memory),
+      stood_out(&host.memory),
       lit_roots(&host.memory),
       links(&host.memory) {
   const Clock::time_point begin = Clock::now();
@@ -248,6 +253,7 @@ void Bake::State::plant() {
     }
     lit_roots.push_back(reflects ? root : k_none);
   }
+  stood_out.assign(tree->roots().size(), 0);
   fates.assign(tree->roots().size(), Fate{});
   FateMeter(scene, *welded, *visibility, occluders, options.seed).of_roots(*tree, fates, host);
   stats.rays += std::uint64_t{FateMeter::k_rays_per_root} * fates.size();
@@ -269,15 +275,17 @@ void Bake::State::shoot_standout() {
       power += shares[s].area * luminance(shares[s].albedo * unshot[s]);
     }
     total += power;
-    if (power > largest && lit_roots[p] != k_none) {
+    if (power > largest && lit_roots[p] != k_none && stood_out[p] == 0) {
       largest = power;
       patch = p;
     }
   }
-  if (patch == k_none || largest < k_stands_out * total) {
+  const double even_share = 1.0 / std::max(1u, surface->patch_count());
+  if (patch == k_none || largest < std::max(k_stands_out, k_times_even_share * even_share) * total) {
     stage = Stage::bounces;
     return;
   }
+  stood_out[patch] = 1;
   const std::uint32_t root = lit_roots[patch];
   std::fill(radiosity.begin(), radiosity.end(), NodeLight{});
   const TreeNode& node = tree->nodes()[root];
@@ -356,7 +364,7 @@ void Bake::State::bounce() {
   }
   const bool first = bounces == 0;
   const LinkAccuracy accuracy;
-  const std::uint32_t end = std::min(block_count(), block + (first ? 4 : 256) * host.jobs.thread_count());
+  const std::uint32_t end = std::min(block_count(), block + (first ? 1 : 256) * host.jobs.thread_count());
   over_blocks(block, end, [&](std::uint32_t at, Tracer& tracer) {
     BlockLinks& own = links[at];
     const auto block_receivers = blocks->block(at);

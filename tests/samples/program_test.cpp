@@ -164,9 +164,9 @@ TEST_F(Program, LightsAndQuantities) {
 
 TEST_F(Program, InterruptedItWritesWhatThereIs) {
   // A tolerance that takes long; the signal comes after a moment.
-  const Outcome outcome = run("timeout --signal=INT --preserve-status 2 " RADVOR_BAKE_PROGRAM " " + scene +
-                              " --tolerance 1e-6 --patch-spacing 0.01 --min-spacing 0.001 --stats " + out("o.json") +
-                              " -o " + out("o.ply"));
+  const Outcome outcome =
+      run("timeout --signal=INT --preserve-status 2 " RADVOR_BAKE_PROGRAM " " + scene +
+          " --tolerance 1e-6 --patch-spacing 0.02 --element-levels 1 --stats " + out("o.json") + " -o " + out("o.ply"));
   ASSERT_EQ(outcome.code, 128 + SIGINT) << outcome.output;
   EXPECT_EQ(nlohmann::json::parse(folder.read("o.json")).at("result"), "cancelled");
   EXPECT_EQ(folder.read("o.ply").substr(0, 3), "ply");
