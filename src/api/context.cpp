@@ -1,4 +1,5 @@
 // radvor_version, radvor_result_string and the context: what the engine lends, checked and kept.
+#include <memory>
 #include <cinttypes>
 #include <new>
 
@@ -27,7 +28,7 @@ void check(const radvor_context_desc& desc) {
 radvor_context::radvor_context(const radvor_context_desc& desc)
     : lent(desc),
       host{HostMemory(desc.acquire, desc.release, desc.user), Log(desc.log, desc.user),
-           Jobs(desc.thread_count, desc.parallel_for, desc.user, &host.memory)},
+           Jobs(desc.thread_count, desc.parallel_for, desc.user, std::addressof(host.memory))},
       embree_path(desc.embree_path ? desc.embree_path : "", &host.memory) {
   lent.embree_path = nullptr;
 }
