@@ -1,0 +1,98 @@
+// Spacing from the scene and the tolerance.
+#include "surface/spacing.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "support/test_host.h"
+#include "surface/solids.h"
+
+namespace radvor {
+namespace {
+
+struct Room {
+  Room() : scene(make()), welded(weld(scene, 0, host)), facets(find_facets(scene, welded, 0.5, host)) {}
+  static Scene make() {
+    test::SceneBuilder builder(std::pmr::get_default_resource());
+    builder.box({0, 0, 0}, {4, 4, 3}, true);  // 80 square units, 44 of edges
+    return builder.take();
+  }
+  SurfaceOptions choose(const SpacingRequest& request) const { return choose_spacing(scene, welded, facets, request); }
+
+  test::TestHost host;
+  Scene scene;
+  WeldedScene welded;
+  Facets facets;
+};
+
+TEST(Spacing, GivesThirtyPatchesOverTheTolerance) {
+  const Room room;
+  for (const double tolerance : {0.1, 0.02, 0.004}) {
+    for (const Lattice lattice : {Lattice::hexagonal, Lattice::quadrilateral}) {
+      SpacingRequest request;
+      request.tolerance = tolerance;
+      request.lattice = lattice;
+      const double spacing = room.choose(request).patch_spacing;
+      const double cell = spacing * spacing * (lattice == Lattice::hexagonal ? std::numbers::sqrt3 / 2 : 1);
+      EXPECT_NEAR(80 / cell, 30 / tolerance, 1e-6 * 30 / tolerance);
+    }
+  }
+}
+
+TEST(Spacing, LevelsFollowTheTolerance) {
+  const Room room;
+  const auto levels = [&](double tolerance, std::uint32_t asked) {
+    SpacingRequest request;
+    request.tolerance = tolerance;
+    request.element_levels = asked;
+    return room.choose(request).element_levels;
+  };
+  EXPECT_EQ(levels(0.1, 0), 1u);
+  EXPECT_EQ(levels(0.08, 0), 1u);
+  EXPECT_EQ(levels(0.02, 0), 2u);
+  EXPECT_EQ(levels(0.005, 0), 3u);
+  EXPECT_EQ(levels(0.02, 4), 4u);
+}
+
+TEST(Spacing, WhatIsAskedForIsTaken) {
+  const Room room;
+  SpacingRequest request;
+  request.patch_spacing = 0.37;
+  request.min_spacing = 0.01;
+  const SurfaceOptions options = room.choose(request);
+  EXPECT_EQ(options.patch_spacing, 0.37);
+  EXPECT_EQ(options.min_spacing, 0.01);
+  EXPECT_EQ(options.element_levels, 2u);
+}
+
+TEST(Spacing, FirstElementsAreNoFinerThanTheLeastSpacing) {
+  const Room room;
+  SpacingRequest request;
+  request.patch_spacing = 0.4;
+  request.min_spacing = 0.15;
+  EXPECT_EQ(room.choose(request).element_levels, 1u);
+}
+
+TEST(Spacing, CoarsensUntilSitesAreWithinTheLimit) {
+  const Room room;
+  for (const std::uint32_t limit : {100u, 1000u, 10000u}) {
+    SpacingRequest request;
+    request.max_sites = limit;
+    const SurfaceOptions options = room.choose(request);
+    test::TestHost host;
+    const Surface surface(room.scene, room.welded, room.facets, options, host);
+    EXPECT_LE(surface.sites().size(), limit);
+    EXPECT_GE(surface.sites().size(), limit / 3);
+  }
+}
+
+TEST(Spacing, CornersAloneMayExceedTheLimit) {
+  const Room room;
+  SpacingRequest request;
+  request.max_sites = 1;
+  EXPECT_GT(room.choose(request).patch_spacing, 1);  // and it ends
+}
+
+}  // namespace
+}  // namespace radvor
