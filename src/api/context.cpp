@@ -1,6 +1,6 @@
 // radvor_version, radvor_result_string and the context: what the engine lends, checked and kept.
-#include <memory>
 #include <cinttypes>
+#include <memory>
 #include <new>
 
 #include "api/entry.h"
