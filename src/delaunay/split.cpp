@@ -1,4 +1,5 @@
-// A point that replaces a constraint edge by two, also where rounding put it beside the edge.
+// A point that replaces a constraint edge by two, also where rounding put it beside the edge, and beyond unconstrained
+// slivers there.
 #include <algorithm>
 #include <cmath>
 
@@ -21,6 +22,47 @@ VertexId Triangulation::split(VertexId a, VertexId b, Vec2 point) {
   return p;
 }
 
+// The triangle between edge and point has to be empty, so that no vertex changes sides: the edges between them then cut
+// it from side to side, one after another. edge: the point is left of it. False where a vertex or a constraint is in
+// the way.
+//
+//          p                e1-e2: the edge crossed last, at first a-b. Its next apex c is in the triangle a b p (or on
+//         / \               its border), or beyond a-p, where c-e2 is crossed next, or beyond b-p
+//    e1 -/---\---- e2
+//       /     \   /
+//      a ===== b
+bool Triangulation::find_beside(HalfEdge edge, Vec2 point, Location& location) const {
+  const Vec2 a = positions_[origin(edge)];
+  const Vec2 b = positions_[target(edge)];
+  const auto side_of = [&](HalfEdge e) {
+    return orientation(positions_[origin(e)], positions_[target(e)], point, lattice_);
+  };
+  HalfEdge h = edge;
+  while (!is_ghost(triangle_of(h))) {
+    const Vec2 c = positions_[apex(h)];
+    const bool beyond_a = orientation(point, a, c, lattice_) < 0;
+    if (!beyond_a && orientation(b, point, c, lattice_) >= 0) {
+      return false;
+    }
+    const int right = side_of(next(h));
+    const int left = side_of(previous(h));
+    if (right > 0 && left > 0) {
+      location = describe(Where::triangle, h);
+      return true;
+    }
+    if (right >= 0 && left >= 0) {
+      location = describe(Where::edge, right == 0 ? next(h) : previous(h));
+      return mesh_.constraint(location.edge) == 0;
+    }
+    h = twin(beyond_a ? next(h) : previous(h));
+    if (mesh_.constraint(h) != 0) {
+      return false;
+    }
+  }
+  location = describe(Where::outside, h);
+  return true;
+}
+
 //          c                    c
 //         / \                  /|\.
 //        /   \                / | \.
@@ -32,16 +74,13 @@ VertexId Triangulation::split_edge(HalfEdge edge, Vec2 point) {
   reserve_one();
   HalfEdge h = edge;
   const std::uint8_t flags = mesh_.constraint(h);
-  const VertexId a = origin(h);
-  const VertexId b = target(h);
+  VertexId a = origin(h);
+  VertexId b = target(h);
   const auto refuse = [&] {
     throw Error(ErrorCode::constraint, "(%.17g, %.17g) cannot split the constraint from vertex %u to %u", point.x,
                 point.y, a, b);
   };
-  const auto side_of = [&](HalfEdge e) {
-    return orientation(positions_[origin(e)], positions_[target(e)], point, lattice_);
-  };
-  const int side = side_of(h);
+  const int side = orientation(positions_[a], positions_[b], point, lattice_);
   if (side == 0) {
     if (lexicographically_less(positions_[a], point) != lexicographically_less(point, positions_[b]) ||
         point == positions_[a] || point == positions_[b]) {
@@ -54,28 +93,18 @@ VertexId Triangulation::split_edge(HalfEdge edge, Vec2 point) {
   }
   if (side < 0) {
     h = twin(h);
+    std::swap(a, b);
   }
-  if (!is_ghost(triangle_of(h))) {
-    const int right = side_of(next(h));
-    const int left = side_of(previous(h));
-    if (right < 0 || left < 0 || (right == 0 && left == 0) || (right == 0 && mesh_.constraint(next(h)) != 0) ||
-        (left == 0 && mesh_.constraint(previous(h)) != 0)) {
-      refuse();
-    }
+  Location location;
+  if (!find_beside(h, point, location)) {
+    refuse();
   }
-  collect_cavity(point, triangle_of(h), k_none, lattice_, boundary_, cavity_, stack_);
-  const VertexId p = add_vertex(point);
-  flat_ = false;
-  last_ = p;
-  fill_cavity(p);
-  report_star(p);
-  const HalfEdge to_a = find_edge(p, a);
-  const HalfEdge to_b = find_edge(p, b);
-  const HalfEdge base = next(apex(to_a) == b ? to_a : to_b);  // of the sliver
+  const VertexId p = insert_new(point, location);
+  constrain_along(a, p, flags, Crossing::refuse);
+  constrain_along(p, b, flags, Crossing::refuse);
+  const HalfEdge base = find_edge(a, b);  // of the sliver
   mesh_.set_state(triangle_of(base), mesh_.state(triangle_of(twin(base))));
   mesh_.set_constraint(base, 0);
-  mesh_.set_constraint(to_a, flags);
-  mesh_.set_constraint(to_b, flags);
   stack_.clear();
   stack_.push_back(base);
   legalize();

@@ -85,8 +85,8 @@ class Triangulation {
   void unconstrain(VertexId a, VertexId b);
 
   /// A point replaces the constraint edge a-b by a-p and p-b with the same flags, even where rounding put it beside
-  /// the line. Throws constraint where it lies beyond the triangles at the edge, so that one would invert, or is a
-  /// vertex already.
+  /// the line, across other edges too. Throws constraint where the triangle of edge and point holds a vertex, which
+  /// would change sides, or meets another constraint.
   VertexId split(VertexId a, VertexId b, Vec2 point);
 
   /// Flags of the edge a-b; 0: not a constraint or not an edge.
@@ -271,6 +271,7 @@ class Triangulation {
   void free_edge(HalfEdge h);
 
   // split.cpp
+  bool find_beside(HalfEdge edge, Vec2 point, Location& location) const;
   VertexId split_edge(HalfEdge h, Vec2 point);
   VertexId split_crossing(VertexId a, VertexId b, Pair edge);
 
