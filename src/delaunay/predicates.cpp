@@ -1,7 +1,8 @@
 // What the filters cannot decide: determinants in 128-bit integers where the coordinates are on a coarse enough
-// lattice, in expansions otherwise (Shewchuk 1997).
+// lattice, in twice double precision with a filter of its own, at last in expansions (Shewchuk 1997).
 #include "delaunay/predicates.h"
 
+#include "delaunay/double_double.h"
 #include "delaunay/expansion.h"
 
 #ifdef __FAST_MATH__
@@ -66,20 +67,30 @@ int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
 
 namespace detail {
 
-int in_circle_far(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice) {
-  // Offsets below 2^30 units: lifts are below 2^61, minors below 2^61, so that the sum stays below 2^125. A difference
-  // of that few units is exact.
-  constexpr double k_most_units = 0x1p30;
-  const double scale = lattice.per_unit();
-  const double offsets[6] = {(a.x - d.x) * scale, (a.y - d.y) * scale, (b.x - d.x) * scale,
-                             (b.y - d.y) * scale, (c.x - d.x) * scale, (c.y - d.y) * scale};
-  bool small = true;
-  for (const double offset : offsets) {
-    small &= std::fabs(offset) < k_most_units;
+using namespace expansion;
+
+int orientation_far(Vec2 a, Vec2 b, Vec2 c) {
+  const Two acx = two_difference(a.x, c.x), acy = two_difference(a.y, c.y);
+  const Two bcx = two_difference(b.x, c.x), bcy = two_difference(b.y, c.y);
+  if (acx.low == 0 && acy.low == 0 && bcx.low == 0 && bcy.low == 0) {
+    // Products are exact and rounding is monotonic: compare them.
+    const Two left = two_product(acx.high, bcy.high), right = two_product(acy.high, bcx.high);
+    return left.high != right.high ? (left.high > right.high ? 1 : -1)
+                                   : (left.low > right.low) - (left.low < right.low);
   }
-  if (!small) {
-    return exact::in_circle(a, b, c, d);
+  const Two left = acx * bcy, right = acy * bcx;
+  const Two determinant = left - right;
+  constexpr double k_bound = 0x1p-100;  // the error is below 16 u^2 = 2^-102 of the magnitude
+  if (std::fabs(determinant.high) > k_bound * (std::fabs(left.high) + std::fabs(right.high))) {
+    return sign(determinant);
   }
+  return exact::orientation(a, b, c);
+}
+
+namespace {
+
+// Offsets below 2^30 units: lifts are below 2^61, minors below 2^61, so that the sum stays below 2^125.
+int in_circle_on_lattice(const double (&offsets)[6]) {
   std::int64_t i[6];
   for (int k = 0; k < 6; ++k) {
     i[k] = static_cast<std::int64_t>(offsets[k]);
@@ -89,6 +100,38 @@ int in_circle_far(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice) {
                            static_cast<Wide>(i[2] * i[2] + i[3] * i[3]) * (i[4] * i[1] - i[0] * i[5]) +
                            static_cast<Wide>(i[4] * i[4] + i[5] * i[5]) * (i[0] * i[3] - i[2] * i[1]);
   return (determinant > 0) - (determinant < 0);
+}
+
+}  // namespace
+
+int in_circle_far(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice) {
+  constexpr double k_most_units = 0x1p30;  // a difference of that few units is exact
+  const double scale = lattice.per_unit();
+  const double offsets[6] = {(a.x - d.x) * scale, (a.y - d.y) * scale, (b.x - d.x) * scale,
+                             (b.y - d.y) * scale, (c.x - d.x) * scale, (c.y - d.y) * scale};
+  bool small = true;
+  for (const double offset : offsets) {
+    small &= std::fabs(offset) < k_most_units;
+  }
+  if (small) {
+    return in_circle_on_lattice(offsets);
+  }
+  const Two ax = two_difference(a.x, d.x), ay = two_difference(a.y, d.y);
+  const Two bx = two_difference(b.x, d.x), by = two_difference(b.y, d.y);
+  const Two cx = two_difference(c.x, d.x), cy = two_difference(c.y, d.y);
+  const Two bc = bx * cy, cb = cx * by, ca = cx * ay, ac = ax * cy, ab = ax * by, ba = bx * ay;
+  const Two a_lift = ax * ax + ay * ay, b_lift = bx * bx + by * by, c_lift = cx * cx + cy * cy;
+  const Two determinant = a_lift * (bc - cb) + b_lift * (ca - ac) + c_lift * (ab - ba);
+  const double magnitude = (std::fabs(bc.high) + std::fabs(cb.high)) * a_lift.high +
+                           (std::fabs(ca.high) + std::fabs(ac.high)) * b_lift.high +
+                           (std::fabs(ab.high) + std::fabs(ba.high)) * c_lift.high;
+  // Lifts and minors are off by 14 u^2 of their magnitudes, their products by 38 u^2 and a little, the sum by 46 u^2
+  // and a little: less than 2^-100 of the whole magnitude.
+  constexpr double k_bound = 0x1p-98;
+  if (std::fabs(determinant.high) > k_bound * magnitude) {
+    return sign(determinant);
+  }
+  return exact::in_circle(a, b, c, d);
 }
 
 }  // namespace detail

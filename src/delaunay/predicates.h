@@ -46,6 +46,11 @@ int orientation(Vec2 a, Vec2 b, Vec2 c);
 int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d);
 }  // namespace exact
 
+namespace detail {
+int orientation_far(Vec2 a, Vec2 b, Vec2 c);
+int in_circle_far(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice);
+}  // namespace detail
+
 /// > 0: a, b, c turn left; 0: collinear; < 0: right.
 inline int orientation(Vec2 a, Vec2 b, Vec2 c, const Lattice& lattice) {
   const double left = (a.x - c.x) * (b.y - c.y);
@@ -56,11 +61,7 @@ inline int orientation(Vec2 a, Vec2 b, Vec2 c, const Lattice& lattice) {
   if (std::fabs(determinant) > k_bound * magnitude || magnitude < lattice.orientation_limit()) {
     return (determinant > 0) - (determinant < 0);
   }
-  return exact::orientation(a, b, c);
-}
-
-namespace detail {
-int in_circle_far(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice);
+  return detail::orientation_far(a, b, c);
 }
 
 /// a, b, c counter-clockwise. > 0: d is strictly inside of their circle; 0: on it; < 0: outside.

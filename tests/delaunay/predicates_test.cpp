@@ -142,6 +142,26 @@ TEST(predicates, collinear_runs_and_one_ulp_beside) {
   }
 }
 
+// Differences of the coordinates are not doubles here, and determinants about as large as the errors of doubles.
+TEST(predicates, rounded_circles_and_lines_away_from_zero) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  Counts counts;
+  for (int i = 0; i < k_cases; ++i) {
+    const Vec2 centre(unit(random), unit(random));
+    const double radius = std::ldexp(1 + std::fabs(unit(random)), -static_cast<int>(random() % 30));
+    const double slope = unit(random);
+    Vec2 on_circle[4], on_line[4];
+    for (int k = 0; k < 4; ++k) {
+      const double angle = 4 * unit(random), at = unit(random);
+      on_circle[k] = centre + radius * Vec2(std::cos(angle), std::sin(angle));
+      on_line[k] = centre + radius * Vec2(at, at * slope);
+    }
+    ASSERT_NO_FATAL_FAILURE(check(on_circle, counts));
+    ASSERT_NO_FATAL_FAILURE(check(on_line, counts));
+  }
+}
+
 TEST(predicates, all_magnitudes_within_the_bound) {
   std::mt19937_64 random(4);
   std::uniform_int_distribution<int> exponent(-142, 199);
