@@ -3,6 +3,7 @@
 // 2003).
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "base/error.h"
 #include "delaunay/spatial_order.h"
@@ -49,7 +50,8 @@ void Triangulation::insert_many(std::span<const Vec2> points, VertexId* vertices
   }
 }
 
-// The point with index i becomes vertex first + i; where points coincide ids are closed up afterwards.
+// The work is done with ids in the spatial order, so that what is near in the plane is near in memory; afterwards the
+// vertices get the ids of the input's order, closed up where points coincide.
 void Triangulation::insert_all(std::span<const Vec2> points, VertexId* vertices) {
   const VertexId first = vertex_bound();
   const auto count = static_cast<std::uint32_t>(points.size());
@@ -62,121 +64,111 @@ void Triangulation::insert_all(std::span<const Vec2> points, VertexId* vertices)
   if (!values_.empty()) {
     values_.resize(first + count, std::numeric_limits<double>::quiet_NaN());
   }
-  positions_.insert(positions_.end(), points.begin(), points.end());
-  for (std::uint32_t i = 0; i < count; ++i) {
-    mesh_.append_vertex();
-    lattice_.include(points[i]);
+  for (const std::uint32_t index : order) {
+    positions_.push_back(points[index]);
+    lattice_.include(points[index]);
   }
+  mesh_.append_vertices(count);
 
-  struct Duplicate {
-    std::uint32_t index;
-    VertexId original;
-  };
   std::pmr::vector<Duplicate> duplicates(memory_);
   // Until its turn comes, a new vertex is not there: the count tells.
-  VertexId before_last = last_;
-  for (std::uint32_t k = 0; k < count; ++k) {
-    const VertexId p = first + order[k];
-    if (k + 4 < count) {
-      __builtin_prefetch(&positions_[first + order[k + 4]]);
-    }
+  const VertexId end = first + count;
+  for (VertexId p = first; p < end; ++p) {
     const Vec2 point = positions_[p];
-    if (vertex_count_ == 0) {
-      ++vertex_count_;
-      last_ = p;
-      continue;
-    }
-    if (vertex_count_ == 1) {
-      if (positions_[last_] == point) {
-        duplicates.push_back({order[k], last_});
+    if (vertex_count_ >= 2) {
+      const Location location = locate_from(point, mesh_.out(last_), lattice_);
+      if (location.where == Where::vertex) {
+        duplicates.push_back({p, location.vertices[0]});
         continue;
       }
-      before_last = last_;
+      prepare(point, location);
       ++vertex_count_;
-      start_chain(before_last, p);
-      continue;
-    }
-    const Location location = locate_from(point, mesh_.out(last_), lattice_);
-    if (location.where == Where::vertex) {
-      duplicates.push_back({order[k], location.vertices[0]});
-      continue;
-    }
-    prepare(point, location);
-    ++vertex_count_;
-    place(p, location);
-  }
-  if (duplicates.empty()) {
-    if (vertices) {
-      for (std::uint32_t i = 0; i < count; ++i) {
-        vertices[i] = first + i;
+      place(p, location);
+    } else if (vertex_count_ == 1) {
+      if (positions_[last_] == point) {
+        duplicates.push_back({p, last_});
+        continue;
       }
+      ++vertex_count_;
+      start_chain(last_, p);
+    } else {
+      ++vertex_count_;
+      last_ = p;
     }
-    return;
   }
 
-  // original[i]: the vertex at point i. A group's id is that of its earliest point.
-  std::pmr::vector<VertexId> original(count, memory_);
-  std::pmr::vector<VertexId> earliest(count, memory_);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    original[i] = earliest[i] = first + i;
+  VertexId bound = end;
+  if (duplicates.empty()) {
+    std::copy(points.begin(), points.end(), positions_.begin() + first);
+    if (vertices) {
+      std::iota(vertices, vertices + count, first);
+    }
+  } else {
+    bound -= static_cast<VertexId>(duplicates.size());
+    number_without_duplicates(points, first, duplicates, order, vertices);
+  }
+  renumber(first, order, bound);
+}
+
+// Of coinciding points the earliest gives the id and its position. order: what the point was that became vertex
+// first + i; after it: what to add to `first` for the id that the vertex is to have, k_none for duplicates.
+void Triangulation::number_without_duplicates(std::span<const Vec2> points, VertexId first,
+                                              std::span<const Duplicate> duplicates, std::span<std::uint32_t> order,
+                                              VertexId* vertices) {
+  const std::size_t count = order.size();
+  std::pmr::vector<std::uint32_t> earliest(order.begin(), order.end(), memory_);  // point, of each vertex
+  std::pmr::vector<VertexId> vertex_of(count, memory_);                           // of each point
+  for (std::size_t i = 0; i < count; ++i) {
+    vertex_of[order[i]] = static_cast<VertexId>(first + i);
   }
   for (const Duplicate& duplicate : duplicates) {
-    original[duplicate.index] = duplicate.original;
+    const std::uint32_t point = order[duplicate.vertex - first];
+    order[duplicate.vertex - first] = k_none;
+    vertex_of[point] = duplicate.original;
     if (duplicate.original >= first) {
-      VertexId& lowest = earliest[duplicate.original - first];
-      lowest = std::min(lowest, first + duplicate.index);
+      std::uint32_t& least = earliest[duplicate.original - first];
+      least = std::min(least, point);
     }
   }
-  std::pmr::vector<VertexId> renumbered(count, k_none, memory_);
-  VertexId id = first;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const VertexId v = original[i];
-    if (v >= first && earliest[v - first] == first + i) {
-      renumbered[v - first] = id++;
+  std::uint32_t id = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const VertexId v = vertex_of[i];
+    if (v >= first && earliest[v - first] == i) {
+      positions_[first + id] = points[i];
+      order[v - first] = id++;
     }
   }
-  renumber(first, renumbered, id);
   if (vertices) {
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const VertexId v = original[i];
-      vertices[i] = v < first ? v : renumbered[v - first];
+    for (std::size_t i = 0; i < count; ++i) {
+      vertices[i] = vertex_of[i] < first ? vertex_of[i] : first + order[vertex_of[i] - first];
     }
   }
 }
 
-// Vertex first + i gets the id renumbered[i], if it has any; `end` is the bound of ids then.
-void Triangulation::renumber(VertexId first, std::span<const VertexId> renumbered, VertexId end) {
-  std::pmr::vector<Vec2> positions(end - first, memory_);
+// Vertex first + i gets the id first + renumbered[i], where that is not k_none; `end` is the bound of ids then.
+void Triangulation::renumber(VertexId first, std::span<const std::uint32_t> renumbered, VertexId end) {
   std::pmr::vector<HalfEdge> outs(end - first, memory_);
-  for (std::size_t i = 0; i < renumbered.size(); ++i) {
+  for (std::uint32_t i = 0; i < renumbered.size(); ++i) {
     if (renumbered[i] != k_none) {
-      positions[renumbered[i] - first] = positions_[first + i];
-      outs[renumbered[i] - first] = mesh_.out(static_cast<VertexId>(first + i));
+      outs[renumbered[i]] = mesh_.out(first + i);
     }
   }
-  const auto renamed = [&](VertexId v) { return v >= first && v < k_infinite ? renumbered[v - first] : v; };
+  const auto renamed = [&](VertexId v) { return v >= first && v < k_infinite ? first + renumbered[v - first] : v; };
   for (TriangleId t = 0; t < mesh_.record_count(); ++t) {
-    const Triangle& record = mesh_.triangle(t);
-    if (!mesh_.is_free(t) &&
-        (renamed(record.vertex[0]) != record.vertex[0] || renamed(record.vertex[1]) != record.vertex[1] ||
-         renamed(record.vertex[2]) != record.vertex[2])) {
-      for (VertexId& v : mesh_.write(t).vertex) {
-        v = renamed(v);
+    const auto& v = mesh_.triangle(t).vertex;
+    if (!mesh_.is_free(t) && ((v[0] >= first && v[0] < k_infinite) || (v[1] >= first && v[1] < k_infinite) ||
+                              (v[2] >= first && v[2] < k_infinite))) {
+      for (VertexId& corner : mesh_.write(t).vertex) {
+        corner = renamed(corner);
       }
     }
   }
   last_ = renamed(last_);
   positions_.resize(end);
-  std::copy(positions.begin(), positions.end(), positions_.begin() + first);
   if (!values_.empty()) {
     values_.resize(end);
   }
-  while (mesh_.vertex_capacity() > end) {
-    mesh_.drop_last_vertex();
-  }
-  for (VertexId v = first; v < end; ++v) {
-    mesh_.set_out(v, outs[v - first]);
-  }
+  mesh_.set_last_outs(outs, first);
 }
 
 }  // namespace radvor::delaunay

@@ -4,10 +4,12 @@
 // closes, also where all vertices are collinear: then all triangles are ghosts, two to an edge of the chain.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
+#include <span>
 #include <vector>
 
 namespace radvor::delaunay {
@@ -88,7 +90,12 @@ class Mesh {
   void reserve_vertices_exactly(std::uint32_t total) { outs_.reserve(total); }
   void reserve_vertex();
   void append_vertex() { outs_.push_back(k_none); }
-  void drop_last_vertex() { outs_.pop_back(); }
+  void append_vertices(std::uint32_t count) { outs_.resize(outs_.size() + count, k_none); }
+  /// Of the vertices from `first` on; there are no others after them.
+  void set_last_outs(std::span<const HalfEdge> outs, VertexId first) {
+    outs_.resize(first + outs.size());
+    std::copy(outs.begin(), outs.end(), outs_.begin() + first);
+  }
   void set_out(VertexId v, HalfEdge h) { outs_[v] = h; }
 
   // ---- Surgery

@@ -10,7 +10,7 @@
 
 namespace radvor::delaunay {
 
-/// A permutation of the points: rounds chosen by a hash, each about twice as large as all before, and each along a
+/// A permutation of the points: rounds chosen by a hash, each several times as large as all before, and each along a
 /// Hilbert curve. A function of the points and their order alone.
 void spatial_order(std::span<const Vec2> points, std::pmr::vector<std::uint32_t>& order,
                    std::pmr::memory_resource* memory);

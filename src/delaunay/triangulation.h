@@ -238,7 +238,12 @@ class Triangulation {
 
   // bulk.cpp
   void insert_all(std::span<const Vec2> points, VertexId* vertices);
-  void renumber(VertexId first, std::span<const VertexId> renumbered, VertexId end);
+  struct Duplicate {
+    VertexId vertex, original;
+  };
+  void number_without_duplicates(std::span<const Vec2> points, VertexId first, std::span<const Duplicate> duplicates,
+                                 std::span<std::uint32_t> order, VertexId* vertices);
+  void renumber(VertexId first, std::span<const std::uint32_t> renumbered, VertexId end);
 
   // locate.cpp
   HalfEdge start_near(Vec2 point, VertexId hint) const;
