@@ -62,7 +62,7 @@ VertexId Triangulation::insert_new(Vec2 point, const Location& location) {
   if (vertex_count_ >= 2) {
     prepare(point, location);
   }
-  changed_.reserve(changed_.size() + boundary_.size() + 3);
+  changed_.reserve(changed_.size() + cavity_.border_size + 3);
   const VertexId p = add_vertex(point);
   if (other != k_none) {
     start_chain(other, p);
@@ -78,11 +78,11 @@ VertexId Triangulation::insert_new(Vec2 point, const Location& location) {
 void Triangulation::prepare(Vec2 point, const Location& location) {
   const HalfEdge h = location.edge;
   if (flat_ && orientation(positions_[origin(h)], positions_[target(h)], point, lattice_) == 0) {
-    boundary_.clear();
+    cavity_.border_size = 0;
     return;
   }
   const bool cross = location.where == Where::edge && constraint_flags(h) != 0;
-  collect_cavity(point, triangle_of(h), cross ? twin(h) : k_none, lattice_, boundary_, cavity_, stack_);
+  collect_cavity(point, triangle_of(h), cross ? twin(h) : k_none, lattice_, cavity_);
 }
 
 // p is a vertex without triangles; the cavity has been collected, or p extends the chain.
@@ -91,7 +91,7 @@ void Triangulation::place(VertexId p, const Location& location) {
   if (vertex_count_ == 1) {
     return;
   }
-  if (boundary_.empty()) {
+  if (cavity_.border_size == 0) {
     if (location.where == Where::edge) {
       split_chain(p, location.edge);
     } else {
@@ -160,49 +160,65 @@ void Triangulation::report_star(VertexId vertex) {
 // where the point is strictly beyond its hull edge, or within that edge. On the circle exactly the rule is that of a
 // circle test on points lifted to the paraboloid whose lexicographically least one is lowered a little: every
 // cocircular polygon becomes the fan of its least vertex, in whatever order its points come.
-bool Triangulation::conflicts(HalfEdge entry, Vec2 point, const Lattice& lattice) const {
+inline bool Triangulation::loses(HalfEdge entry, Vec2 point, const Lattice& lattice) const {
   const Triangle& record = mesh_.triangle(triangle_of(entry));
   const std::uint32_t corner = corner_of(entry);
   const VertexId a = record.vertex[corner];
   const VertexId b = record.vertex[corner == 2 ? 0 : corner + 1];
   const VertexId c = record.vertex[corner == 0 ? 2 : corner - 1];
-  if (a == k_infinite || b == k_infinite || c == k_infinite) {
+  if (a == k_infinite || b == k_infinite || c == k_infinite) [[unlikely]] {
     const Vec2 from = positions_[a == k_infinite ? b : b == k_infinite ? c : a];
     const Vec2 to = positions_[a == k_infinite ? c : b == k_infinite ? a : b];
     const int side = orientation(from, to, point, lattice);
     return side > 0 || (side == 0 && lexicographically_less(from, point) == lexicographically_less(point, to));
   }
   const int side = in_circle(positions_[a], positions_[b], positions_[c], point, lattice);
-  if (side != 0) {
+  if (side != 0) [[likely]] {
     return side > 0;
   }
-  const Vec2 inner = lexicographically_less(positions_[c], point) ? positions_[c] : point;
-  return lexicographically_less(inner, positions_[a]) && lexicographically_less(inner, positions_[b]);
+  return wins_tie(positions_[a], positions_[b], positions_[c], point);
+}
+
+bool Triangulation::conflicts(HalfEdge entry, Vec2 point, const Lattice& lattice) const {
+  return loses(entry, point, lattice);
 }
 
 // Depth first with the edges in order, so that the border of the cavity comes out counter-clockwise. No vertex is
-// inside of a cavity: its triangles form a tree and need no marks.
+// inside of a cavity: its triangles form a tree and need no marks; n of them have a border of n + 2 edges, and at most
+// as many wait.
 void Triangulation::collect_cavity(Vec2 point, TriangleId start, HalfEdge crossed, const Lattice& lattice,
-                                   std::pmr::vector<BoundaryEdge>& boundary, std::pmr::vector<TriangleId>& cavity,
-                                   std::pmr::vector<HalfEdge>& stack) const {
-  boundary.clear();
-  cavity.clear();
-  stack.clear();
-  cavity.push_back(start);
-  for (std::uint32_t corner = 3; corner-- > 0;) {
-    stack.push_back(mesh_.triangle(start).twin[corner]);
+                                   Cavity& cavity) const {
+  if (cavity.slots.empty()) {
+    cavity.grow();
   }
-  while (!stack.empty()) {
-    const HalfEdge h = stack.back();
-    stack.pop_back();
-    if ((mesh_.constraint(h) == 0 || h == crossed) && conflicts(h, point, lattice)) {
-      cavity.push_back(triangle_of(h));
-      stack.push_back(twin(previous(h)));
-      stack.push_back(twin(next(h)));
+  Cavity::Slot* slots = cavity.slots.data();
+  std::uint32_t room = static_cast<std::uint32_t>(cavity.slots.size()) - 2;
+  std::uint32_t triangle_count = 0, border_size = 0, waiting = 0;
+  slots[triangle_count++].triangle = start;
+  for (std::uint32_t corner = 3; corner-- > 0;) {
+    slots[waiting++].stacked = mesh_.triangle(start).twin[corner];
+  }
+  const bool marked = marked_;
+  while (waiting > 0) {
+    const HalfEdge h = slots[--waiting].stacked;
+    if ((mesh_.constraint(h) == 0 || h == crossed) && loses(h, point, lattice)) {
+      if (triangle_count == room) [[unlikely]] {
+        cavity.grow();
+        slots = cavity.slots.data();
+        room = static_cast<std::uint32_t>(cavity.slots.size()) - 2;
+      }
+      const Triangle& record = mesh_.triangle(triangle_of(h));
+      const std::uint32_t corner = corner_of(h);
+      slots[triangle_count++].triangle = triangle_of(h);
+      slots[waiting++].stacked = record.twin[corner == 0 ? 2 : corner - 1];
+      slots[waiting++].stacked = record.twin[corner == 2 ? 0 : corner + 1];
     } else {
-      boundary.push_back({h, mesh_.state(triangle_of(twin(h)))});
+      slots[border_size].outer = h;
+      slots[border_size++].state = marked ? mesh_.state(triangle_of(twin(h))) : std::uint8_t{0};
     }
   }
+  cavity.triangle_count = triangle_count;
+  cavity.border_size = border_size;
 }
 
 //        a <--outer-- b       each border edge of the cavity and p make a triangle (p, b, a), seen from p:
@@ -211,12 +227,13 @@ void Triangulation::collect_cavity(Vec2 point, TriangleId start, HalfEdge crosse
 //            \    /
 //              p
 void Triangulation::fill_cavity(VertexId p) {
-  const std::size_t size = boundary_.size();
+  const std::uint32_t size = cavity_.border_size;
   TriangleId before = k_none;
-  const TriangleId first = cavity_[0];
-  for (std::size_t i = 0; i < size; ++i) {
-    const TriangleId t = i < cavity_.size() ? cavity_[i] : mesh_.allocate();
-    mesh_.set_fan_triangle(t, p, boundary_[i].outer, boundary_[i].state);
+  const TriangleId first = cavity_.slots[0].triangle;
+  for (std::uint32_t i = 0; i < size; ++i) {
+    const Cavity::Slot& slot = cavity_.slots[i];
+    const TriangleId t = i < cavity_.triangle_count ? slot.triangle : mesh_.allocate();
+    mesh_.set_fan_triangle(t, p, slot.outer, slot.state);
     if (i > 0) {
       mesh_.link(half_edge(before, 2), half_edge(t, 0));
     }

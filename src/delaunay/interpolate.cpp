@@ -64,22 +64,18 @@ double Triangulation::interpolate_natural(Vec2 point, VertexId* hint) const {
   }
   std::array<std::byte, 4096> room;
   std::pmr::monotonic_buffer_resource scratch(room.data(), room.size(), memory_);
-  std::pmr::vector<BoundaryEdge> boundary(&scratch);
-  std::pmr::vector<TriangleId> cavity(&scratch);
-  std::pmr::vector<HalfEdge> stack(&scratch);
-  boundary.reserve(32);
-  cavity.reserve(32);
-  stack.reserve(32);
+  Cavity cavity(&scratch);
   Lattice lattice = lattice_;
   lattice.include(point);
-  collect_cavity(point, triangle_of(at.edge), k_none, lattice, boundary, cavity, stack);
+  collect_cavity(point, triangle_of(at.edge), k_none, lattice, cavity);
+  const std::span<const Cavity::Slot> border(cavity.slots.data(), cavity.border_size);
 
   const auto offset = [&](VertexId v) { return positions_[v] - point; };
   double weights = 0;
   double sum = 0;
-  HalfEdge outer_before = boundary.back().outer;
+  HalfEdge outer_before = border.back().outer;
   Vec2 centre_before = circumcentre(Vec2(0.0), offset(target(outer_before)), offset(origin(outer_before)));
-  for (const BoundaryEdge& edge : boundary) {
+  for (const Cavity::Slot& edge : border) {
     const VertexId b = target(edge.outer);
     const Vec2 centre = circumcentre(Vec2(0.0), offset(b), offset(origin(edge.outer)));
     Vec2 corner = centre;

@@ -91,4 +91,11 @@ inline bool lexicographically_less(Vec2 a, Vec2 b) {
   return a.x < b.x || (a.x == b.x && a.y < b.y);
 }
 
+/// Four points on one circle in the order a, d, b, c: is d taken for inside of it? The lexicographically least of the
+/// four counts as lowered below the paraboloid they are lifted to.
+inline bool wins_tie(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+  const Vec2 inner = lexicographically_less(c, d) ? c : d;
+  return lexicographically_less(inner, a) && lexicographically_less(inner, b);
+}
+
 }  // namespace radvor::delaunay

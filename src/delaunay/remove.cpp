@@ -1,6 +1,6 @@
-// Removal. Edges of the vertex are flipped away while that leaves an ear of its star behind; then three triangles
-// become one, or, on the hull, what is left of the star turns into ghosts. The ears' new edges are made locally
-// Delaunay.
+// Removal, where close_hole.cpp does not do it. Edges of the vertex are flipped away while that leaves an ear of its
+// star behind; then three triangles become one, or, on the hull, what is left of the star turns into ghosts. The ears'
+// new edges are made locally Delaunay.
 #include <limits>
 #include <vector>
 
@@ -12,14 +12,16 @@ namespace radvor::delaunay {
 
 void Triangulation::remove(VertexId vertex) {
   require_vertex(vertex);
-  transact([&] {
-    if (flat_) {
-      remove_from_chain(vertex);
-    } else {
-      remove_from_plane(vertex);
-    }
-    std::erase(changed_, vertex);
-  });
+  if (flat_ || steered_ || !close_hole(vertex)) {
+    transact([&] {
+      if (flat_) {
+        remove_from_chain(vertex);
+      } else {
+        remove_from_plane(vertex);
+      }
+      std::erase(changed_, vertex);
+    });
+  }
   free_again(vertex);
   --vertex_count_;
 }

@@ -18,8 +18,7 @@ Triangulation::Triangulation(std::pmr::memory_resource* memory)
       reused_(memory),
       changed_(memory),
       stack_(memory),
-      cavity_(memory),
-      boundary_(memory) {}
+      cavity_(memory) {}
 
 bool Triangulation::is_vertex(VertexId vertex) const {
   return vertex < positions_.size() && !std::isnan(positions_[vertex].x);

@@ -212,9 +212,19 @@ class Triangulation {
   friend class TiePolygon;
   friend class Audit;
 
-  struct BoundaryEdge {
-    HalfEdge outer;      // the triangle beyond keeps it
-    std::uint8_t state;  // of the triangle that goes
+  // Three lists in one array: the triangles that go, the edges around them, and those that wait to be looked at.
+  struct Cavity {
+    struct Slot {
+      TriangleId triangle;
+      HalfEdge outer;  // the triangle beyond keeps it
+      HalfEdge stacked;
+      std::uint8_t state;  // of the triangle that goes at `outer`
+    };
+    explicit Cavity(std::pmr::memory_resource* memory) : slots(memory) {}
+    void grow() { slots.resize(2 * slots.size() + 30); }
+
+    std::pmr::vector<Slot> slots;
+    std::uint32_t triangle_count = 0, border_size = 0;
   };
 
   // insert.cpp
@@ -224,10 +234,9 @@ class Triangulation {
   VertexId insert_new(Vec2 point, const Location& location);
   void prepare(Vec2 point, const Location& location);
   void place(VertexId p, const Location& location);
-  void collect_cavity(Vec2 point, TriangleId start, HalfEdge crossed, const Lattice& lattice,
-                      std::pmr::vector<BoundaryEdge>& boundary, std::pmr::vector<TriangleId>& cavity,
-                      std::pmr::vector<HalfEdge>& stack) const;
+  void collect_cavity(Vec2 point, TriangleId start, HalfEdge crossed, const Lattice& lattice, Cavity& cavity) const;
   void fill_cavity(VertexId p);
+  bool loses(HalfEdge entry, Vec2 point, const Lattice& lattice) const;
   bool conflicts(HalfEdge entry, Vec2 point, const Lattice& lattice) const;
 
   // chain.cpp
@@ -257,6 +266,9 @@ class Triangulation {
   bool is_flippable(HalfEdge h) const;
   bool prefers_flip(HalfEdge h) const;
   void legalize();
+
+  // close_hole.cpp
+  bool close_hole(VertexId vertex);
 
   // remove.cpp
   VertexId only_vertex() const;
@@ -310,8 +322,7 @@ class Triangulation {
   // Scratch that insertions keep.
   std::pmr::vector<VertexId> changed_;
   std::pmr::vector<HalfEdge> stack_;
-  std::pmr::vector<TriangleId> cavity_;
-  std::pmr::vector<BoundaryEdge> boundary_;
+  Cavity cavity_;
 };
 
 }  // namespace radvor::delaunay

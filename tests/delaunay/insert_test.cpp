@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "base/error.h"
@@ -111,6 +112,53 @@ TEST(insertion, refuses_what_predicates_cannot_decide) {
   EXPECT_EQ(code({-std::nextafter(0x1p-142, 0.0), 1}), ErrorCode::limit);
   EXPECT_EQ(code({0x1p-142, 0x1p200}), ErrorCode{});
   EXPECT_EQ(d.vertex_count(), 1u);
+}
+
+// On a circle of integers (all tied), on a rounded one, and on a star; with a constraint around it and without.
+TEST(removal, of_a_hub_with_any_number_of_spokes) {
+  const std::vector<Vec2> exact_circle = [] {
+    std::vector<Vec2> points;
+    for (int x = -1105; x <= 1105; ++x) {
+      const int square = 1105 * 1105 - x * x;
+      const int y = static_cast<int>(std::lround(std::sqrt(square)));
+      if (y * y == square) {
+        points.emplace_back(x, y);
+        points.emplace_back(x, -y);
+      }
+    }
+    std::sort(points.begin(), points.end(), [](Vec2 a, Vec2 b) { return std::atan2(a.y, a.x) < std::atan2(b.y, b.x); });
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    return points;
+  }();
+  ASSERT_GT(exact_circle.size(), 40u);
+  for (std::size_t count = 3; count <= 40; ++count) {
+    for (const char* shape : {"tied", "rounded", "star"}) {
+      for (const bool constrained : {false, true}) {
+        std::vector<Vec2> points;
+        for (std::size_t i = 0; i < count; ++i) {
+          const double angle = 2 * M_PI * static_cast<double>(i) / static_cast<double>(count);
+          const double radius = *shape == 's' && i % 2 ? 1104 : 1105;
+          points.push_back(*shape == 't' ? exact_circle[i * exact_circle.size() / count]
+                                         : radius * Vec2(std::cos(angle), std::sin(angle)));
+        }
+        Triangulation without(std::pmr::new_delete_resource()), with(std::pmr::new_delete_resource());
+        without.insert_many(points, nullptr);
+        with.insert_many(points, nullptr);
+        if (constrained) {
+          for (Triangulation* d : {&without, &with}) {
+            d->constrain(0, 1, 1);
+            d->constrain(1, 2, 2);
+          }
+        }
+        const VertexId hub = with.insert({0.125, 0.25});
+        ASSERT_NE(with.find_edge(hub, 0), k_none);
+        with.remove(hub);
+        ASSERT_NO_THROW(with.validate());
+        EXPECT_EQ(testing::canonical_triangles(with), testing::canonical_triangles(without)) << shape << count;
+        EXPECT_EQ(with.constraint_count(), without.constraint_count());
+      }
+    }
+  }
 }
 
 }  // namespace
