@@ -32,20 +32,32 @@ class IndexTable {
     return index;
   }
 
+  /// The index stored whose key equals, or k_absent.
+  template <class Equal>
+  std::uint32_t find(std::uint64_t hash, Equal&& equal) const {
+    return slots_[find_slot(hash, equal)].index;
+  }
+  static constexpr std::uint32_t k_absent = 0xffffffffu;
+
  private:
-  static constexpr std::uint32_t k_free = 0xffffffffu;
+  static constexpr std::uint32_t k_free = k_absent;
   struct Slot {
     std::uint64_t hash;
     std::uint32_t index;
   };
 
   template <class Equal>
-  Slot* probe(std::uint64_t hash, Equal&& equal) {
+  std::size_t find_slot(std::uint64_t hash, Equal&& equal) const {
     std::size_t at = hash & (slots_.size() - 1);
     while (slots_[at].index != k_free && !(slots_[at].hash == hash && equal(slots_[at].index))) {
       at = (at + 1) & (slots_.size() - 1);
     }
-    return &slots_[at];
+    return at;
+  }
+
+  template <class Equal>
+  Slot* probe(std::uint64_t hash, Equal&& equal) {
+    return &slots_[find_slot(hash, equal)];
   }
 
   void grow() {

@@ -1,5 +1,10 @@
 #include "surface/border_sites.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "surface/lattice.h"
+
 namespace radvor {
 
 namespace {
@@ -21,14 +26,17 @@ bool joins_fronts(const WeldedScene& welded, const Facets& facets, const Scene& 
 
 }  // namespace
 
-BorderSites::BorderSites(const Scene& scene, const WeldedScene& welded, const Facets& facets, double spacing,
-                         std::pmr::memory_resource* memory)
+BorderSites::BorderSites(const Scene& scene, const WeldedScene& welded, const Facets& facets,
+                         const SurfaceOptions& options, std::pmr::memory_resource* memory)
     : welded_(welded),
-      spacing_(spacing),
+      // As the facets' lattices have it, so that border sites and lattices line up.
+      spacing_(FacetLattice(options.lattice, options.patch_spacing, Vec2(0.0)).column(options.element_levels)),
+      unit_(std::ldexp(spacing_, -static_cast<int>(refinements(options)))),
       of_vertex_(welded.positions.size(), k_none, memory),
-      first_of_edge_(welded.edges.size() + 1, 0u, memory),
+      ranges_(welded.edges.size(), memory),
+      sites_(memory),
+      carries_(welded.edges.size(), std::uint8_t{0}, memory),
       joins_(welded.edges.size(), std::uint8_t{0}, memory) {
-  std::pmr::vector<std::uint32_t> counts(welded.edges.size(), 0u, memory);
   for (std::uint32_t edge = 0; edge < welded.edges.size(); ++edge) {
     if (facets.edge_kinds[edge] == EdgeKind::interior) {
       continue;
@@ -39,7 +47,7 @@ BorderSites::BorderSites(const Scene& scene, const WeldedScene& welded, const Fa
     }
     if (receives) {
       of_vertex_[welded.edges[edge].a] = of_vertex_[welded.edges[edge].b] = k_marked;
-      counts[edge] = along(edge).count();
+      carries_[edge] = 1;
       joins_[edge] = joins_fronts(welded, facets, scene, edge) ? 1 : 0;
     }
   }
@@ -49,35 +57,50 @@ BorderSites::BorderSites(const Scene& scene, const WeldedScene& welded, const Fa
       site = next++;
     }
   }
+  const std::int64_t step = std::int64_t{1} << refinements(options);
   for (std::uint32_t edge = 0; edge < welded.edges.size(); ++edge) {
-    first_of_edge_[edge] = next;
-    next += counts[edge];
+    const std::int64_t outward = carries(edge) ? line(edge).steps(spacing_) : -1;
+    ranges_[edge].first = static_cast<std::uint32_t>(sites_.size());
+    for (std::int64_t k = -outward; k <= outward; ++k) {
+      sites_.push_back({next++, k * step});
+    }
+    ranges_[edge].count = static_cast<std::uint32_t>(sites_.size()) - ranges_[edge].first;
   }
-  first_of_edge_.back() = next;
+  first_count_ = next;
 }
 
 std::pmr::vector<Site> BorderSites::list() const {
-  std::pmr::vector<Site> sites(size(), of_vertex_.get_allocator());
+  std::pmr::vector<Site> sites(first_count_, of_vertex_.get_allocator());
   for (std::uint32_t vertex = 0; vertex < of_vertex_.size(); ++vertex) {
     if (of_vertex_[vertex] != k_none) {
-      sites[of_vertex_[vertex]] = {welded_.positions[vertex], vertex, k_none};
+      sites[of_vertex_[vertex]].position = welded_.positions[vertex];
+      sites[of_vertex_[vertex]].vertex = vertex;
     }
   }
   for (std::uint32_t edge = 0; edge < welded_.edges.size(); ++edge) {
-    const std::uint32_t count = count_on_edge(edge);
-    if (count > 0) {
-      const EdgeSites inner = along(edge);
-      for (std::uint32_t index = 0; index < count; ++index) {
-        sites[first_on_edge(edge) + index] = {inner.position(index), k_none, edge};
+    if (ranges_[edge].count > 0) {
+      const EdgeLine along = line(edge);
+      for (const EdgeSite& site : on_edge(edge)) {
+        sites[site.site].position = along.position(from_middle(site.step));
+        sites[site.site].edge = edge;
       }
     }
   }
   return sites;
 }
 
-EdgeSites BorderSites::along(std::uint32_t edge) const {
+EdgeLine BorderSites::line(std::uint32_t edge) const {
   const Edge& ends = welded_.edges[edge];
-  return {welded_.positions[ends.a], welded_.positions[ends.b], spacing_};
+  return {welded_.positions[ends.a], welded_.positions[ends.b]};
+}
+
+void BorderSites::insert(std::uint32_t edge, std::span<const EdgeSite> more) {
+  const Range old = ranges_[edge];
+  const auto first = static_cast<std::uint32_t>(sites_.size());
+  sites_.resize(first + old.count + more.size());  // what was there before stays behind, less than what is added
+  std::merge(sites_.begin() + old.first, sites_.begin() + old.first + old.count, more.begin(), more.end(),
+             sites_.begin() + first, [](const EdgeSite& a, const EdgeSite& b) { return a.step < b.step; });
+  ranges_[edge] = {first, static_cast<std::uint32_t>(sites_.size()) - first};
 }
 
 }  // namespace radvor

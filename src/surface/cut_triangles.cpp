@@ -67,12 +67,11 @@ class TriangleCutter {
       const Edge& edge = in_.welded.edges[use.edge];
       const std::uint32_t vertex = use.forward ? edge.a : edge.b;
       rim_.push_back({in_.borders.at_vertex(vertex), vertex, in_.welded.positions[vertex], use.side, bit(use.side)});
-      const std::uint32_t count = in_.borders.count_on_edge(use.edge);
-      const EdgeSites sites = in_.borders.along(use.edge);
-      for (std::uint32_t k = 0; k < count; ++k) {
-        const std::uint32_t index = use.forward ? k : count - 1 - k;
-        rim_.push_back(
-            {in_.borders.first_on_edge(use.edge) + index, k_none, sites.position(index), use.side, bit(use.side)});
+      const auto sites = in_.borders.on_edge(use.edge);
+      const EdgeLine line = in_.borders.line(use.edge);
+      for (std::size_t k = 0; k < sites.size(); ++k) {
+        const EdgeSite& site = sites[use.forward ? k : sites.size() - 1 - k];
+        rim_.push_back({site.site, k_none, line.position(in_.borders.from_middle(site.step)), use.side, bit(use.side)});
       }
     }
     for (std::size_t k = 0; k < rim_.size(); ++k) {

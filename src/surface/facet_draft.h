@@ -4,15 +4,25 @@
 #include <array>
 #include <cstdint>
 #include <memory_resource>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "scene/facets.h"
 #include "scene/scene.h"
 #include "scene/welded.h"
 #include "surface/border_sites.h"
+#include "surface/lattice.h"
 #include "surface/surface.h"
 
 namespace radvor {
+
+/// A site that lies inside of one facet.
+struct InnerSite {
+  Vec2 position;  ///< exact
+  std::uint32_t site;
+  bool is_centre;  ///< of a patch: it belongs to level 0 of the lattice and was there from the start
+};
 
 /// All that a facet's triangles are made from.
 struct FacetInput {
@@ -23,6 +33,8 @@ struct FacetInput {
   const BorderSites& borders;
   std::pmr::memory_resource* memory;
   std::uint32_t index;  ///< of the facet
+  /// The sites inside; absent: those of the first elements' lattice, which are still to be found.
+  std::optional<std::span<const InnerSite>> inner = {};
 
   const Facet& facet() const { return facets.facets[index]; }
 };
@@ -54,9 +66,19 @@ struct BorderPiece {
 };
 
 struct FacetDraft {
-  explicit FacetDraft(std::pmr::memory_resource* memory) : shares(memory), pieces(memory), joined(memory) {}
+  explicit FacetDraft(std::pmr::memory_resource* memory)
+      : shares(memory), lattice(memory), pieces(memory), joined(memory) {}
+
+  void clear() {
+    shares.clear();
+    lattice.clear();
+    pieces.clear();
+    joined.clear();
+    patch_count = 0;
+  }
 
   std::pmr::vector<FacetShare> shares;
+  std::pmr::vector<LatticeIndex> lattice;                 ///< of the first elements' level: the inner sites found
   std::pmr::vector<BorderPiece> pieces;                   ///< of edges that irradiance is shared across
   std::pmr::vector<std::array<std::uint32_t, 2>> joined;  ///< shares that are one sample within the facet
   std::uint32_t patch_count = 0;

@@ -9,13 +9,16 @@
 namespace radvor {
 
 FacetMesh::FacetMesh(const FacetInput& input, FacetDraft& draft)
-    : triangles_(input.memory), index_of_triangle_(input.memory), first_share_(input.memory) {
+    : triangles_(input.memory), index_of_triangle_(input.memory), first_share_(input.memory), sites_(input.memory) {
   if (!FacetTriangulator(input, *this, draft).run()) {
     cut_triangles(input, triangles_, draft);
   }
 }
 
 bool FacetMesh::needed(const FacetInput& input) {
+  if (input.inner && !input.inner->empty()) {
+    return true;
+  }
   const auto triangles = input.facets.triangles_of(input.index);
   const auto uses = input.welded.uses_of_triangle(triangles.front());
   return triangles.size() != 1 || uses.size() != 3 || std::any_of(uses.begin(), uses.end(), [&](const EdgeUse& use) {

@@ -28,12 +28,29 @@ class FacetMesh {
 
   std::span<const ShareTriangle> triangles() const { return triangles_; }
 
+  /// Per vertex: those of the border in the order of its edges, then the inner ones in the order given. Empty where the
+  /// facet is degenerate.
+  std::span<const std::uint32_t> sites() const { return sites_; }
+  std::uint32_t border_count() const { return border_count_; }
+  /// Numbers for inner sites that were still to be found: site_of(k) of the k-th.
+  template <class SiteOf>
+  void number_sites(SiteOf&& site_of) {
+    for (std::size_t vertex = border_count_; vertex < sites_.size(); ++vertex) {
+      sites_[vertex] = site_of(vertex - border_count_);
+    }
+  }
+
+  /// The shares of a vertex follow one another: its first, and the next vertex's.
+  std::uint32_t first_share(std::uint32_t vertex) const { return first_share_[vertex]; }
+  std::uint32_t end_share(std::uint32_t vertex) const { return first_share_[vertex + 1]; }
+
   /// The facet was too degenerate: there is no triangulation, and each triangle's corners are shares of their own.
   bool degenerate() const { return !delaunay_.has_value(); }
 
   // ---- Not of degenerate facets
 
   const delaunay::Triangulation& triangulation() const { return *delaunay_; }
+  const FacetLattice& lattice() const { return *lattice_; }
 
   /// The polygon of a share of a vertex, counter-clockwise in the facet's plane; in the buffer.
   std::span<const Vec2> cell(std::uint32_t vertex, std::uint32_t share, delaunay::CellBuffer& buffer) const;
@@ -50,7 +67,9 @@ class FacetMesh {
   std::optional<FacetLattice> lattice_;
   std::pmr::vector<ShareTriangle> triangles_;
   std::pmr::vector<std::uint32_t> index_of_triangle_;  // per triangle of the triangulation: into triangles_, or k_none
-  std::pmr::vector<std::uint32_t> first_share_;        // per vertex; the shares of its sectors follow one another
+  std::pmr::vector<std::uint32_t> first_share_;        // per vertex and one past the last
+  std::pmr::vector<std::uint32_t> sites_;              // per vertex
+  std::uint32_t border_count_ = 0;
 };
 
 }  // namespace radvor

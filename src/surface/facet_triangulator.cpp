@@ -38,11 +38,10 @@ FacetTriangulator::FacetTriangulator(const FacetInput& input, FacetMesh& mesh, F
       outline_(input.welded, input.facets, input.index, input.memory),
       chains_(input.memory),
       first_of_chain_(input.memory),
-      site_of_vertex_(input.memory),
       borders_(input.memory),
       inner_(input.memory),
       walls_(input.memory),
-      lattice_sites_(input.memory),
+      centres_(input.memory),
       share_at_(input.memory) {}
 
 bool FacetTriangulator::run() {
@@ -53,8 +52,8 @@ bool FacetTriangulator::run() {
     delaunay::Triangulation& triangulation = mesh_.delaunay_.emplace(in_.memory);
     if (insert_corners(triangulation) && insert_borders(triangulation)) {
       triangulation.mark_domain();
-      insert_lattice(triangulation);
-      if (find_shares(triangulation) && find_triangles(triangulation) && find_sources(triangulation)) {
+      if (insert_inner(triangulation) && find_shares(triangulation) && find_triangles(triangulation) &&
+          find_sources(triangulation)) {
         find_patches();
         return true;
       }
@@ -67,7 +66,10 @@ bool FacetTriangulator::run() {
   mesh_.triangles_.clear();
   mesh_.index_of_triangle_.clear();
   mesh_.first_share_.clear();
+  mesh_.sites_.clear();
+  mesh_.border_count_ = 0;
   draft_.shares.clear();
+  draft_.lattice.clear();
   draft_.pieces.clear();
   return false;
 }
@@ -77,7 +79,7 @@ bool FacetTriangulator::insert_corners(delaunay::Triangulation& triangulation) {
   std::pmr::vector<Vec2> points(in_.memory);
   for (const std::uint32_t vertex : outline_.vertices) {
     points.push_back(frame.to_plane(in_.welded.positions[vertex]));
-    site_of_vertex_.push_back(in_.borders.at_vertex(vertex));
+    mesh_.sites_.push_back(in_.borders.at_vertex(vertex));
     low_ = points.size() == 1 ? points.back() : glm::min(low_, points.back());
     high_ = points.size() == 1 ? points.back() : glm::max(high_, points.back());
   }
@@ -102,20 +104,21 @@ bool FacetTriangulator::insert_borders(delaunay::Triangulation& triangulation) {
     if (edge.flags & delaunay::constraint::k_blocking) {
       walls_.push_back(segment);
     }
-    const EdgeSites sites = in_.borders.along(edge.edge);
+    const EdgeLine line = in_.borders.line(edge.edge);
     first_of_chain_.push_back(static_cast<std::uint32_t>(chains_.size()));
     chains_.push_back(corner(ends.a));
-    for (std::uint32_t index = 0; index < in_.borders.count_on_edge(edge.edge); ++index) {
-      const Vec2 point = segment.a + sites.part(index) * (segment.b - segment.a);
+    for (const EdgeSite& site : in_.borders.on_edge(edge.edge)) {
+      const Vec2 point = segment.a + line.part(in_.borders.from_middle(site.step)) * (segment.b - segment.a);
       points.push_back({std::nearbyint(point.x / unit) * unit, std::nearbyint(point.y / unit) * unit});
-      chains_.push_back(static_cast<delaunay::VertexId>(site_of_vertex_.size()));
-      site_of_vertex_.push_back(in_.borders.first_on_edge(edge.edge) + index);
+      chains_.push_back(static_cast<delaunay::VertexId>(mesh_.sites_.size()));
+      mesh_.sites_.push_back(site.site);
     }
     chains_.push_back(corner(ends.b));
   }
   first_of_chain_.push_back(static_cast<std::uint32_t>(chains_.size()));
   triangulation.insert_many(points, nullptr);  // numbered in the order given, unless two fall together
-  if (triangulation.vertex_count() != site_of_vertex_.size()) {
+  mesh_.border_count_ = static_cast<std::uint32_t>(mesh_.sites_.size());
+  if (triangulation.vertex_count() != mesh_.border_count_) {
     return false;
   }
   for (std::size_t k = 0; k < outline_.edges.size(); ++k) {
@@ -129,18 +132,35 @@ bool FacetTriangulator::insert_borders(delaunay::Triangulation& triangulation) {
   return true;
 }
 
-void FacetTriangulator::insert_lattice(delaunay::Triangulation& triangulation) {
+bool FacetTriangulator::insert_inner(delaunay::Triangulation& triangulation) {
   const FacetLattice& lattice =
       mesh_.lattice_.emplace(in_.options.lattice, in_.options.patch_spacing, 0.5 * (low_ + high_));
   const std::uint32_t level = in_.options.element_levels;
-  find_interior_sites(lattice, level, borders_, inner_, k_half_spacing * lattice.column(level), lattice_sites_,
-                      in_.memory);
   std::pmr::vector<Vec2> points(in_.memory);
-  points.reserve(lattice_sites_.size());
-  for (const LatticeIndex& index : lattice_sites_) {
-    points.push_back(lattice.point(level, index));
+  if (in_.inner) {
+    points.reserve(in_.inner->size());
+    for (const InnerSite& inner : *in_.inner) {
+      points.push_back(inner.position);
+      mesh_.sites_.push_back(inner.site);
+      if (inner.is_centre) {
+        centres_.push_back(lattice.nearest(0, inner.position));
+      }
+    }
+  } else {
+    find_interior_sites(lattice, level, borders_, inner_, k_half_spacing * lattice.column(level), draft_.lattice,
+                        in_.memory);
+    points.reserve(draft_.lattice.size());
+    for (const LatticeIndex& index : draft_.lattice) {
+      points.push_back(lattice.point(level, index));
+      if (FacetLattice::coarsest_level(level, index) == 0) {
+        const std::int64_t step = std::int64_t{1} << level;
+        centres_.push_back({index.i / step, index.j / step});
+      }
+    }
+    mesh_.sites_.resize(mesh_.sites_.size() + points.size(), k_none);
   }
-  triangulation.insert_many(points, nullptr);
+  triangulation.insert_many(points, nullptr);  // numbered in the order given, unless two fall together
+  return triangulation.vertex_count() == mesh_.sites_.size();
 }
 
 bool FacetTriangulator::find_shares(const delaunay::Triangulation& triangulation) {
@@ -160,7 +180,7 @@ bool FacetTriangulator::find_shares(const delaunay::Triangulation& triangulation
       }
       FacetShare& share = draft_.shares.emplace_back();
       share.vertex = vertex;
-      share.site = vertex < site_of_vertex_.size() ? site_of_vertex_[vertex] : k_none;
+      share.site = mesh_.sites_[vertex];
       share.position = triangulation.position(vertex);
       share.centroid = sector.centroid;
       share.receiver = receiver_point(share.position, buffer.polygon(sector), sector.centroid);
@@ -168,6 +188,7 @@ bool FacetTriangulator::find_shares(const delaunay::Triangulation& triangulation
       area += sector.area;
     }
   }
+  mesh_.first_share_.push_back(static_cast<std::uint32_t>(draft_.shares.size()));
   return std::abs(area - in_.facet().area) <= k_area_tolerance * in_.facet().area;
 }
 
@@ -225,7 +246,7 @@ void FacetTriangulator::find_patches() {
   if (in_.facet().area < k_least_patch * lattice.cell_area()) {
     return;
   }
-  const LatticePatches patches(lattice, in_.options.element_levels, lattice_sites_, walls_, in_.memory);
+  const LatticePatches patches(lattice, centres_, walls_, in_.memory);
   draft_.patch_count = patches.count();
   if (patches.count() > 0) {
     for (FacetShare& share : draft_.shares) {

@@ -24,7 +24,7 @@ class FacetTriangulator {
  private:
   bool insert_corners(delaunay::Triangulation& triangulation);
   bool insert_borders(delaunay::Triangulation& triangulation);
-  void insert_lattice(delaunay::Triangulation& triangulation);
+  bool insert_inner(delaunay::Triangulation& triangulation);
   bool find_shares(const delaunay::Triangulation& triangulation);
   bool find_triangles(const delaunay::Triangulation& triangulation);
   bool find_sources(const delaunay::Triangulation& triangulation);
@@ -37,10 +37,9 @@ class FacetTriangulator {
   FacetOutline outline_;
   std::pmr::vector<delaunay::VertexId> chains_;     // per outline edge: its a, the sites inside, its b
   std::pmr::vector<std::uint32_t> first_of_chain_;  // per outline edge, and one past the last
-  std::pmr::vector<std::uint32_t> site_of_vertex_;  // of border vertices, which come first
   std::pmr::vector<Segment> borders_, inner_;       // outline edges: of the domain, and within it
   std::pmr::vector<Segment> walls_;                 // those that cells end at
-  std::pmr::vector<LatticeIndex> lattice_sites_;    // their vertices come last
+  std::pmr::vector<LatticeIndex> centres_;          // of patches, on level 0
   std::pmr::vector<std::uint32_t> share_at_;        // per half-edge: share of its origin, in its triangle
   Vec2 low_{0.0}, high_{0.0};
 };

@@ -66,6 +66,12 @@ class FacetLattice {
     return floor((high - anchor_.x) / column(level) - shift(j));
   }
 
+  /// Of a level, to a point of that level but for rounding.
+  LatticeIndex nearest(std::uint32_t level, const Vec2& point) const {
+    const auto j = static_cast<std::int64_t>(std::nearbyint((point.y - anchor_.y) / row(level)));
+    return {static_cast<std::int64_t>(std::nearbyint((point.x - anchor_.x) / column(level) - shift(j))), j};
+  }
+
   /// The lowest level that holds the point (i, j) of a level.
   static std::uint32_t coarsest_level(std::uint32_t level, LatticeIndex index) {
     while (level > 0 && index.i % 2 == 0 && index.j % 2 == 0) {
@@ -88,5 +94,19 @@ class FacetLattice {
   double column_, row_, quantum_;
   Vec2 anchor_;
 };
+
+/// Coordinates are exact down to this level.
+inline constexpr std::uint32_t k_exact_levels = 12;
+
+/// How often the first elements' lattice may be halved: the spacing stays at or above min_spacing, coordinates exact.
+inline std::uint32_t refinements(const SurfaceOptions& options) {
+  const double spacing = std::ldexp(dyadic_step(options.patch_spacing), -static_cast<int>(options.element_levels));
+  std::uint32_t count = 0;
+  while (options.element_levels + count < k_exact_levels &&
+         std::ldexp(spacing, -static_cast<int>(count) - 1) >= options.min_spacing * (1 - 1e-3)) {
+    ++count;
+  }
+  return count;
+}
 
 }  // namespace radvor

@@ -44,15 +44,10 @@ class Nearest {
 
 }  // namespace
 
-LatticePatches::LatticePatches(const FacetLattice& lattice, std::uint32_t level, std::span<const LatticeIndex> sites,
+LatticePatches::LatticePatches(const FacetLattice& lattice, std::span<const LatticeIndex> centres,
                                std::span<const Segment> walls, std::pmr::memory_resource* memory)
-    : lattice_(lattice), walls_(walls, lattice.column(0), memory), centres_(memory) {
-  const std::int64_t step = std::int64_t{1} << level;
-  for (const LatticeIndex& index : sites) {
-    if (FacetLattice::coarsest_level(level, index) == 0) {
-      centres_.push_back({index.i / step, index.j / step});
-    }
-  }
+    : lattice_(lattice), walls_(walls, lattice.column(0), memory), centres_(centres.begin(), centres.end(), memory) {
+  std::sort(centres_.begin(), centres_.end(), before);
 }
 
 std::uint32_t LatticePatches::nearest(const Vec2& site, const Vec2& receiver) const {

@@ -14,9 +14,9 @@ namespace radvor {
 
 class LatticePatches {
  public:
-  /// sites: the facet's lattice sites, of a level, row by row; walls: what sites do not see across.
-  LatticePatches(const FacetLattice& lattice, std::uint32_t level, std::span<const LatticeIndex> sites,
-                 std::span<const Segment> walls, std::pmr::memory_resource* memory);
+  /// centres: the facet's sites of level 0, in any order; walls: what sites do not see across.
+  LatticePatches(const FacetLattice& lattice, std::span<const LatticeIndex> centres, std::span<const Segment> walls,
+                 std::pmr::memory_resource* memory);
 
   /// Sites of level 0.
   std::uint32_t count() const { return static_cast<std::uint32_t>(centres_.size()); }

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <atomic>
 
-#include "surface/border_sites.h"
 #include "surface/receiver_point.h"
+#include "surface/sample_origins.h"
 #include "surface/shading.h"
 #include "surface/triangle_cells.h"
 
@@ -33,128 +33,221 @@ std::pmr::vector<std::uint32_t> even_ranges(std::uint32_t count, double weight, 
 class SurfaceMaker {
  public:
   explicit SurfaceMaker(SurfaceParts& parts)
-      : parts_(parts),
-        borders_(parts.scene, parts.welded, parts.facets, element_spacing(parts), parts.memory),
-        draft_(parts.memory),
-        meshed_(parts.memory) {}
+      : parts_(parts), facets_(parts.memory), retired_(parts.memory), inner_sites_(parts.memory) {}
 
-  void run() {
-    parts_.sites = borders_.list();
-    build_meshes();
+  void make() {
+    parts_.sites = parts_.borders.list();
+    for (std::uint32_t facet = 0; facet < parts_.records.size(); ++facet) {
+      const Facet& described = parts_.facets.facets[facet];
+      if (parts_.scene.meshes[described.mesh].receives) {
+        parts_.records[facet].two_sided = parts_.scene.materials[described.material].two_sided;
+        parts_.records[facet].first_share = 0;  // for now: it receives
+        facets_.push_back(facet);
+      }
+    }
+    parts_.small_triangles.assign(parts_.records.size(), ShareTriangle{k_none, k_none, k_none});
+    build_meshes([&](std::uint32_t k) { return parts_.input(facets_[k]); });
     number();
+    place_border_sites();
     fill_shares();
-    make_samples(parts_, draft_, borders_);
-    make_patches(parts_, draft_);
+    make_samples(parts_);
+    make_patches(parts_);
+  }
+
+  std::pmr::vector<SampleOrigin> remake(const ChangedFacets& changed) {
+    facets_.assign(changed.facets.begin(), changed.facets.end());
+    SurfaceBefore before(parts_, facets_);
+    build_meshes([&](std::uint32_t k) {
+      FacetInput input = parts_.input(facets_[k]);
+      input.inner = changed.inner_of(k);
+      return input;
+    });
+    number();
+    copy_shares(before);
+    fill_shares();
+    make_samples(parts_);
+    make_patches(parts_);
+    auto origins = find_origins(parts_, before, facets_);
+    for (const std::uint32_t mesh : retired_) {
+      parts_.meshes[mesh].reset();
+    }
+    return origins;
   }
 
  private:
-  // As the facets' lattices have it, so that border sites and lattices line up.
-  static double element_spacing(const SurfaceParts& parts) {
-    return FacetLattice(parts.options.lattice, parts.options.patch_spacing, Vec2(0.0))
-        .column(parts.options.element_levels);
-  }
-
-  void build_meshes() {
-    for (std::uint32_t facet = 0; facet < parts_.records.size(); ++facet) {
-      const Facet& described = parts_.facets.facets[facet];
-      FacetRecord& record = parts_.records[facet];
-      if (!parts_.scene.meshes[described.mesh].receives) {
-        continue;
-      }
-      record.two_sided = parts_.scene.materials[described.material].two_sided;
-      record.first_share = 0;  // for now: it receives
-      if (FacetMesh::needed(parts_.input(facet, borders_))) {
-        record.mesh = static_cast<std::uint32_t>(meshed_.size());
-        meshed_.push_back(facet);
-        parts_.meshes.emplace_back();
-        draft_.facets.emplace_back(parts_.memory);
+  // input_of(k): of facets_[k].
+  template <class InputOf>
+  void build_meshes(InputOf&& input_of) {
+    std::pmr::vector<std::uint32_t> free(parts_.memory);
+    for (auto mesh = static_cast<std::uint32_t>(parts_.meshes.size()); mesh-- > 0;) {
+      if (!parts_.meshes[mesh]) {
+        free.push_back(mesh);
       }
     }
-    // A facet's own lattice, and a constant for the rest; in sites.
-    const double spacing = element_spacing(parts_);
+    std::pmr::vector<std::uint32_t> meshed(parts_.memory);  // into facets_
+    for (std::uint32_t k = 0; k < facets_.size(); ++k) {
+      FacetRecord& record = parts_.records[facets_[k]];
+      record.first_share = 0;
+      if (record.mesh != k_none) {
+        retired_.push_back(record.mesh);
+        record.mesh = k_none;
+      }
+      if (FacetMesh::needed(input_of(k))) {
+        meshed.push_back(k);
+        if (free.empty()) {
+          record.mesh = static_cast<std::uint32_t>(parts_.meshes.size());
+          parts_.meshes.emplace_back();
+          parts_.drafts.emplace_back(parts_.memory);
+        } else {
+          record.mesh = free.back();
+          free.pop_back();
+          parts_.drafts[record.mesh].clear();
+        }
+      }
+    }
+    // A facet's own sites, and a constant for the rest.
+    const double spacing = parts_.borders.spacing();
     constexpr double k_task = 1000;
     const auto bounds = even_ranges(
-        static_cast<std::uint32_t>(meshed_.size()), k_task,
+        static_cast<std::uint32_t>(meshed.size()), k_task,
         [&](std::uint32_t k) {
-          const Facet& facet = parts_.facets.facets[meshed_[k]];
-          return 10.0 + 2.0 * facet.triangle_count + facet.area / (spacing * spacing);
+          const FacetInput input = input_of(meshed[k]);
+          const Facet& facet = input.facet();
+          return 10.0 + 2.0 * facet.triangle_count +
+                 (input.inner ? static_cast<double>(input.inner->size()) : facet.area / (spacing * spacing));
         },
         parts_.memory);
     parts_.host.jobs.for_each(static_cast<std::uint32_t>(bounds.size() - 1), [&](std::uint32_t task) {
       for (std::uint32_t k = bounds[task]; k < bounds[task + 1]; ++k) {
-        parts_.meshes[k].emplace(parts_.input(meshed_[k], borders_), draft_.facets[k]);
+        const std::uint32_t mesh = parts_.records[facets_[meshed[k]]].mesh;
+        parts_.meshes[mesh].emplace(input_of(meshed[k]), parts_.drafts[mesh]);
       }
     });
   }
 
+  // Shares of all facets; sites that are still without a number, in facets built now.
   void number() {
     std::uint32_t shares = 0;
-    std::uint32_t degenerate = 0;
-    parts_.small_triangles.assign(parts_.records.size(), ShareTriangle{k_none, k_none, k_none});
-    std::pmr::vector<std::uint32_t> inner_sites(parts_.memory);  // per welded vertex, once one is needed
     for (std::uint32_t facet = 0; facet < parts_.records.size(); ++facet) {
       FacetRecord& record = parts_.records[facet];
       if (record.first_share == k_none) {
         continue;
       }
-      record.first_share = shares;
       if (record.mesh == k_none) {
         record.share_count = 3;
         parts_.small_triangles[facet] = {shares, shares + 1, shares + 2};
       } else {
-        FacetMesh& mesh = *parts_.meshes[record.mesh];
-        FacetDraft& draft = draft_.facets[record.mesh];
-        record.share_count = static_cast<std::uint32_t>(draft.shares.size());
-        mesh.number_shares(shares);
-        degenerate += mesh.degenerate() ? 1 : 0;
-        for (FacetShare& share : draft.shares) {
-          if (share.site == k_none) {
-            share.site = add_inner_site(parts_.facets.facets[facet], share, inner_sites);
-          }
-        }
+        record.share_count = static_cast<std::uint32_t>(parts_.drafts[record.mesh].shares.size());
+        parts_.meshes[record.mesh]->number_shares(shares - record.first_share);
       }
+      record.first_share = shares;
       shares += record.two_sided ? 2 * record.share_count : record.share_count;
+    }
+    std::uint32_t degenerate = 0;
+    for (const std::uint32_t facet : facets_) {
+      if (parts_.records[facet].mesh != k_none) {
+        degenerate += number_sites(facet) ? 0 : 1;
+      }
     }
     if (degenerate > 0) {
       parts_.host.log(LogLevel::info, "%u of %zu facets are too thin to be triangulated anew and keep their triangles",
                       degenerate, parts_.records.size());
     }
     parts_.shares.resize(shares);
+    parts_.details.resize(shares);
   }
 
-  std::uint32_t add_inner_site(const Facet& facet, const FacetShare& share,
-                               std::pmr::vector<std::uint32_t>& inner_sites) {
-    const auto site = static_cast<std::uint32_t>(parts_.sites.size());
-    if (share.inner_vertex == k_none) {
-      parts_.sites.push_back({facet.frame.to_world(share.position), k_none, k_none});
-      return site;
+  // False where the facet is degenerate.
+  bool number_sites(std::uint32_t facet) {
+    FacetMesh& mesh = *parts_.meshes[parts_.records[facet].mesh];
+    FacetDraft& draft = parts_.drafts[parts_.records[facet].mesh];
+    if (!draft.lattice.empty()) {
+      const auto first = static_cast<std::uint32_t>(parts_.sites.size());
+      const std::int64_t step = std::int64_t{1} << refinements(parts_.options);
+      for (const LatticeIndex& index : draft.lattice) {
+        const Vec2 position = mesh.lattice().point(parts_.options.element_levels, index);
+        parts_.sites.emplace_back().position = parts_.facets.facets[facet].frame.to_world(position);
+        parts_.places.resize(parts_.sites.size());
+        parts_.places.back() = {facet, true, {index.i * step, index.j * step}};
+      }
+      mesh.number_sites([&](std::size_t k) { return first + static_cast<std::uint32_t>(k); });
     }
-    if (inner_sites.empty()) {
-      inner_sites.assign(parts_.welded.positions.size(), k_none);
+    for (FacetShare& share : draft.shares) {
+      if (share.site == k_none) {
+        share.site = share.inner_vertex == k_none ? mesh.sites()[share.vertex] : inner_vertex_site(share.inner_vertex);
+      }
     }
-    std::uint32_t& known = inner_sites[share.inner_vertex];
-    if (known == k_none) {
-      known = site;
-      parts_.sites.push_back({parts_.welded.positions[share.inner_vertex], share.inner_vertex, k_none});
-    }
-    return known;
+    parts_.places.resize(parts_.sites.size());
+    parts_.levels.resize(parts_.sites.size(), std::uint8_t{0});
+    return !mesh.degenerate();
   }
 
+  // Of a welded vertex inside a facet that keeps its triangles.
+  std::uint32_t inner_vertex_site(std::uint32_t vertex) {
+    if (inner_sites_.empty()) {
+      inner_sites_.assign(parts_.welded.positions.size(), k_none);
+      for (std::uint32_t site = 0; site < parts_.sites.size(); ++site) {
+        if (parts_.sites[site].vertex != k_none) {
+          inner_sites_[parts_.sites[site].vertex] = site;
+        }
+      }
+    }
+    if (inner_sites_[vertex] == k_none) {
+      inner_sites_[vertex] = static_cast<std::uint32_t>(parts_.sites.size());
+      Site& site = parts_.sites.emplace_back();
+      site.position = parts_.welded.positions[vertex];
+      site.vertex = vertex;
+    }
+    return inner_sites_[vertex];
+  }
+
+  void place_border_sites() {
+    parts_.places.resize(parts_.sites.size());
+    parts_.levels.resize(parts_.sites.size(), std::uint8_t{0});
+    for (std::uint32_t edge = 0; edge < parts_.welded.edges.size(); ++edge) {
+      for (const EdgeSite& site : parts_.borders.on_edge(edge)) {
+        parts_.places[site.site].index.i = site.step;
+      }
+    }
+  }
+
+  // What has not changed, under its new numbers.
+  void copy_shares(const SurfaceBefore& before) {
+    for (std::uint32_t facet = 0; facet < parts_.records.size(); ++facet) {
+      const FacetRecord& record = parts_.records[facet];
+      if (record.first_share == k_none || before.is_changed(facet)) {
+        continue;
+      }
+      const std::uint32_t from = before.records[facet].first_share;
+      const std::uint32_t count = record.two_sided ? 2 * record.share_count : record.share_count;
+      for (std::uint32_t k = 0; k < count; ++k) {
+        Share& share = parts_.shares[record.first_share + k];
+        share = before.shares[from + k];
+        share.sample = share.patch = share.next_in_sample = k_none;
+        if (share.other_side != k_none) {
+          share.other_side += record.first_share - from;
+        }
+      }
+      const auto copy = [&](const auto& old, auto& now) {
+        std::copy_n(old.begin() + from, count, now.begin() + record.first_share);
+      };
+      copy(before.details.site, parts_.details.site);
+      copy(before.details.normal, parts_.details.normal);
+      copy(before.details.receiver, parts_.details.receiver);
+    }
+  }
+
+  // Of the facets built now.
   void fill_shares() {
-    draft_.site_of_share.resize(parts_.shares.size());
-    draft_.normals.resize(parts_.shares.size());
-    draft_.receivers.resize(parts_.shares.size());
     constexpr double k_task = 2000;
     const auto bounds = even_ranges(
-        static_cast<std::uint32_t>(parts_.records.size()), k_task,
-        [&](std::uint32_t facet) { return static_cast<double>(parts_.records[facet].share_count); }, parts_.memory);
+        static_cast<std::uint32_t>(facets_.size()), k_task,
+        [&](std::uint32_t k) { return static_cast<double>(parts_.records[facets_[k]].share_count); }, parts_.memory);
     std::atomic<std::uint32_t> clamped{0};
     parts_.host.jobs.for_each(static_cast<std::uint32_t>(bounds.size() - 1), [&](std::uint32_t task) {
       std::uint32_t clamped_here = 0;
-      for (std::uint32_t facet = bounds[task]; facet < bounds[task + 1]; ++facet) {
-        if (parts_.records[facet].first_share != k_none) {
-          clamped_here += parts_.records[facet].mesh == k_none ? fill_small(facet) : fill_meshed(facet);
-        }
+      for (std::uint32_t k = bounds[task]; k < bounds[task + 1]; ++k) {
+        clamped_here += parts_.records[facets_[k]].mesh == k_none ? fill_small(facets_[k]) : fill_meshed(facets_[k]);
       }
       clamped += clamped_here;
     });
@@ -165,7 +258,7 @@ class SurfaceMaker {
   }
 
   std::uint32_t fill_small(std::uint32_t facet) {
-    const FacetInput input = parts_.input(facet, borders_);
+    const FacetInput input = parts_.input(facet);
     const FacetShading shading(input);
     const std::uint32_t triangle = parts_.facets.triangles_of(facet).front();
     const auto& vertices = parts_.welded.triangles[triangle].vertices;
@@ -179,7 +272,7 @@ class SurfaceMaker {
     for (std::uint32_t k = 0; k < 3; ++k) {
       FacetShare share;
       share.vertex = k;
-      share.site = borders_.at_vertex(vertices[k]);
+      share.site = parts_.borders.at_vertex(vertices[k]);
       share.centroid = cells[k].centroid;
       share.receiver = corners[k] + k_nudge * (cells[k].centroid - corners[k]);
       share.area = cells[k].area;
@@ -189,9 +282,9 @@ class SurfaceMaker {
   }
 
   std::uint32_t fill_meshed(std::uint32_t facet) {
-    const FacetInput input = parts_.input(facet, borders_);
+    const FacetInput input = parts_.input(facet);
     FacetShading shading(input);
-    const FacetDraft& draft = draft_.facets[parts_.records[facet].mesh];
+    const FacetDraft& draft = parts_.drafts[parts_.records[facet].mesh];
     std::uint32_t clamped = 0;
     for (std::uint32_t k = 0; k < draft.shares.size(); ++k) {
       const FacetShare& share = draft.shares[k];
@@ -229,21 +322,25 @@ class SurfaceMaker {
 
   void put(std::uint32_t index, const Share& share, const FacetShare& drafted, const Vec3& normal, const Frame& frame) {
     parts_.shares[index] = share;
-    draft_.site_of_share[index] = drafted.site;
-    draft_.normals[index] = normal;
-    draft_.receivers[index] = frame.to_world(drafted.receiver);
+    parts_.details.site[index] = drafted.site;
+    parts_.details.normal[index] = normal;
+    parts_.details.receiver[index] = frame.to_world(drafted.receiver);
   }
 
   SurfaceParts& parts_;
-  BorderSites borders_;
-  SurfaceDraft draft_;
-  std::pmr::vector<std::uint32_t> meshed_;  // facets that have a mesh
+  std::pmr::vector<std::uint32_t> facets_;       // built now
+  std::pmr::vector<std::uint32_t> retired_;      // meshes that others took the place of
+  std::pmr::vector<std::uint32_t> inner_sites_;  // per welded vertex, once one is needed
 };
 
 }  // namespace
 
 void make_surface(SurfaceParts& parts) {
-  SurfaceMaker(parts).run();
+  SurfaceMaker(parts).make();
+}
+
+std::pmr::vector<SampleOrigin> remake_surface(SurfaceParts& parts, const ChangedFacets& changed) {
+  return SurfaceMaker(parts).remake(changed);
 }
 
 }  // namespace radvor

@@ -16,8 +16,7 @@ constexpr double k_whole_extent = 0.5;  // in patch spacings: up to this a facet
 
 class PatchMaker {
  public:
-  PatchMaker(SurfaceParts& parts, const SurfaceDraft& draft)
-      : parts_(parts), draft_(draft), members_(parts.memory), ranges_(parts.memory) {}
+  explicit PatchMaker(SurfaceParts& parts) : parts_(parts), members_(parts.memory), ranges_(parts.memory) {}
 
   void run() {
     for (std::uint32_t facet = 0; facet < parts_.records.size(); ++facet) {
@@ -40,9 +39,9 @@ class PatchMaker {
   };
 
   void take_own(const FacetRecord& record) {
-    const std::uint32_t own = record.mesh == k_none ? 0 : draft_.facets[record.mesh].patch_count;
+    const std::uint32_t own = record.mesh == k_none ? 0 : parts_.drafts[record.mesh].patch_count;
     for (std::uint32_t k = 0; own > 0 && k < record.share_count; ++k) {
-      const std::uint32_t patch = draft_.facets[record.mesh].shares[k].patch;
+      const std::uint32_t patch = parts_.drafts[record.mesh].shares[k].patch;
       if (patch != k_none) {
         const std::uint32_t front = record.first_share + k;
         parts_.shares[front].patch = count_ + patch;
@@ -125,7 +124,6 @@ class PatchMaker {
   }
 
   SurfaceParts& parts_;
-  const SurfaceDraft& draft_;
   std::pmr::vector<PatchMember> members_;
   std::pmr::vector<Range> ranges_;  // per member
   std::uint32_t count_ = 0;
@@ -133,8 +131,8 @@ class PatchMaker {
 
 }  // namespace
 
-void make_patches(SurfaceParts& parts, const SurfaceDraft& draft) {
-  PatchMaker(parts, draft).run();
+void make_patches(SurfaceParts& parts) {
+  PatchMaker(parts).run();
 }
 
 }  // namespace radvor

@@ -10,15 +10,14 @@ namespace {
 
 class SampleMaker {
  public:
-  SampleMaker(SurfaceParts& parts, const SurfaceDraft& draft, const BorderSites& borders)
+  explicit SampleMaker(SurfaceParts& parts)
       : parts_(parts),
-        draft_(draft),
-        borders_(borders),
         sets_(static_cast<std::uint32_t>(parts.shares.size()), parts.memory),
         first_piece_(parts.welded.edges.size(), k_none, parts.memory),
         waiting_(parts.memory) {}
 
   void run() {
+    parts_.samples.clear();
     join_shares();
     collect();
     finish();
@@ -43,7 +42,7 @@ class SampleMaker {
     std::uint32_t& first = first_piece_[piece.edge];
     if (first == k_none) {
       first = static_cast<std::uint32_t>(waiting_.size());
-      waiting_.resize(waiting_.size() + borders_.count_on_edge(piece.edge) + 1);
+      waiting_.resize(waiting_.size() + parts_.borders.count_on_edge(piece.edge) + 1);
     }
     Ends& ends = waiting_[first + piece.index];
     if (ends.low == k_none) {
@@ -63,7 +62,7 @@ class SampleMaker {
       const std::uint32_t first = record.first_share;
       if (record.mesh == k_none) {
         for (const EdgeUse& use : parts_.welded.uses_of_triangle(parts_.facets.triangles_of(facet).front())) {
-          if (borders_.joins(use.edge)) {
+          if (parts_.borders.joins(use.edge)) {
             const std::uint32_t from = first + use.side;
             const std::uint32_t to = first + (use.side + 1u) % 3u;
             meet({use.edge, 0, use.forward ? from : to, use.forward ? to : from});
@@ -71,7 +70,7 @@ class SampleMaker {
         }
         continue;
       }
-      const FacetDraft& facet_draft = draft_.facets[record.mesh];
+      const FacetDraft& facet_draft = parts_.drafts[record.mesh];
       for (const auto& pair : facet_draft.joined) {
         join(first + pair[0], first + pair[1]);
       }
@@ -90,7 +89,7 @@ class SampleMaker {
       if (root == index) {  // a set's smallest member: its sample is new
         share.sample = static_cast<std::uint32_t>(parts_.samples.size());
         Sample& sample = parts_.samples.emplace_back();
-        sample.site = draft_.site_of_share[index];
+        sample.site = parts_.details.site[index];
         sample.first_share = index;
         last.push_back(index);
       } else {
@@ -117,22 +116,20 @@ class SampleMaker {
     for (std::uint32_t index = sample.first_share; index != k_none; index = parts_.shares[index].next_in_sample) {
       const Share& share = parts_.shares[index];
       sample.area += share.area;
-      normal += share.area * draft_.normals[index];
+      normal += share.area * parts_.details.normal[index];
       largest = share.area > parts_.shares[largest].area ? index : largest;
     }
     const Share& share = parts_.shares[largest];
     const double length = glm::length(normal);
     const bool alone = parts_.shares[sample.first_share].next_in_sample == k_none;
-    sample.normal = alone || !(length > 0) ? draft_.normals[largest] : normal / length;
+    sample.normal = alone || !(length > 0) ? parts_.details.normal[largest] : normal / length;
     sample.facet = share.facet;
     const Vec3& facet_normal = parts_.facets.facets[share.facet].frame.normal;
     sample.facet_normal = share.back ? -facet_normal : facet_normal;
-    sample.point = draft_.receivers[largest];
+    sample.point = parts_.details.receiver[largest];
   }
 
   SurfaceParts& parts_;
-  const SurfaceDraft& draft_;
-  const BorderSites& borders_;
   DisjointSets sets_;
   std::pmr::vector<std::uint32_t> first_piece_;  // per edge: into waiting_
   std::pmr::vector<Ends> waiting_;
@@ -140,8 +137,8 @@ class SampleMaker {
 
 }  // namespace
 
-void make_samples(SurfaceParts& parts, const SurfaceDraft& draft, const BorderSites& borders) {
-  SampleMaker(parts, draft, borders).run();
+void make_samples(SurfaceParts& parts) {
+  SampleMaker(parts).run();
 }
 
 }  // namespace radvor

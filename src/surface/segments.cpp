@@ -67,6 +67,40 @@ SegmentGrid::Cells SegmentGrid::cells_of(const Vec2& p, const Vec2& q) const {
   return {clamped(low.x, columns_), clamped(low.y, rows_), clamped(high.x, columns_), clamped(high.y, rows_)};
 }
 
+double SegmentGrid::distance(const Vec2& p, double limit) const {
+  double least = limit * limit;
+  for_each_near(p - limit, p + limit, [&](std::uint32_t k) {
+    const Vec2& a = segments_[k].a;
+    const Vec2 along = segments_[k].b - a;
+    const double squared = glm::dot(along, along);
+    const double part = squared > 0 ? std::clamp(glm::dot(p - a, along) / squared, 0.0, 1.0) : 0.0;
+    const Vec2 apart = p - (a + part * along);
+    least = std::min(least, glm::dot(apart, apart));
+  });
+  return std::min(std::sqrt(least), limit);
+}
+
+bool SegmentGrid::encloses(const Vec2& p, std::uint32_t count) const {
+  if (segments_.empty()) {
+    return false;
+  }
+  bool inside = false;
+  const Cells cells = cells_of({low_.x, p.y}, p);
+  for (std::int64_t x = cells.low_x; x <= cells.high_x; ++x) {
+    for (std::uint32_t k = first_[index(x, cells.low_y)]; k < first_[index(x, cells.low_y) + 1]; ++k) {
+      const Segment& segment = segments_[members_[k]];
+      if (members_[k] >= count || (segment.a.y <= p.y) == (segment.b.y <= p.y)) {
+        continue;
+      }
+      const double part = (p.y - segment.a.y) / (segment.b.y - segment.a.y);
+      const double crossing = segment.a.x + part * (segment.b.x - segment.a.x);
+      // A segment lies in many cells, and counts in one: that of the crossing.
+      inside = inside != (crossing < p.x && cells_of({crossing, p.y}, {crossing, p.y}).low_x == x);
+    }
+  }
+  return inside;
+}
+
 bool SegmentGrid::blocks(const Vec2& p, const Vec2& q) const {
   if (segments_.empty()) {
     return false;

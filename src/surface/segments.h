@@ -23,6 +23,28 @@ class SegmentGrid {
   /// Whether a segment crosses the line of sight from p to q.
   bool blocks(const Vec2& p, const Vec2& q) const;
 
+  /// From p to the nearest segment; `limit` where all are at least that far.
+  double distance(const Vec2& p, double limit) const;
+
+  /// Even-odd: whether a ray to the left of p crosses an odd number of the first `count` segments.
+  bool encloses(const Vec2& p, std::uint32_t count) const;
+
+  /// function(index) for the segments that may meet a box; some more than once.
+  template <class Function>
+  void for_each_near(const Vec2& low, const Vec2& high, Function&& function) const {
+    if (segments_.empty()) {
+      return;
+    }
+    const Cells cells = cells_of(low, high);
+    for (std::int64_t y = cells.low_y; y <= cells.high_y; ++y) {
+      for (std::int64_t x = cells.low_x; x <= cells.high_x; ++x) {
+        for (std::uint32_t k = first_[index(x, y)]; k < first_[index(x, y) + 1]; ++k) {
+          function(members_[k]);
+        }
+      }
+    }
+  }
+
  private:
   struct Cells {
     std::int64_t low_x, low_y, high_x, high_y;

@@ -1,9 +1,13 @@
 #include "surface/surface.h"
 
 #include <algorithm>
+#include <optional>
 
+#include "base/error.h"
 #include "base/floating_point.h"
+#include "surface/facet_location.h"
 #include "surface/make_surface.h"
+#include "surface/refinement.h"
 #include "surface/surface_parts.h"
 #include "surface/triangle_cells.h"
 
@@ -11,6 +15,8 @@ namespace radvor {
 
 struct Surface::State : SurfaceParts {
   using SurfaceParts::SurfaceParts;
+
+  std::optional<Refinement> refinement;  // what it needs to know is found out when it is first used
 
   std::span<const ShareTriangle> triangles_of(std::uint32_t facet) const {
     const FacetRecord& record = records[facet];
@@ -21,59 +27,16 @@ struct Surface::State : SurfaceParts {
                                  : meshes[record.mesh]->triangles();
   }
 
-  // Whether each triangle's corners are shares of their own, with cells in closed form.
-  bool has_plain_triangles(const FacetRecord& record) const {
-    return record.mesh == k_none || meshes[record.mesh]->degenerate();
+  // NULL where each triangle's corners are shares of their own, with cells in closed form.
+  const FacetMesh* triangulated(std::uint32_t facet) const {
+    const FacetRecord& record = records[facet];
+    return record.mesh == k_none || meshes[record.mesh]->degenerate() ? nullptr : &*meshes[record.mesh];
   }
 
-  std::array<Vec2, 3> corners(const ShareTriangle& triangle) const {
-    return {position_in_facet(triangle[0]), position_in_facet(triangle[1]), position_in_facet(triangle[2])};
+  LocatedFacet located(std::uint32_t facet) const {
+    return {facets.facets[facet].frame, triangles_of(facet), triangulated(facet), sites, samples, shares};
   }
-
-  // Where a facet has no triangulation to ask: the triangle that the point is farthest inside of, or least outside.
-  std::uint32_t best_triangle(std::span<const ShareTriangle> triangles, const Vec2& point) const;
 };
-
-namespace {
-
-// Corner weights of the nearest sensible point in the triangle: negative ones are cut off.
-std::array<double, 3> clamped_weights(const std::array<Vec2, 3>& corners, const Vec2& point) {
-  std::array<double, 3> weights;
-  double sum = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    weights[k] = std::max(doubled_area(point, corners[(k + 1) % 3], corners[(k + 2) % 3]), 0.0);
-    sum += weights[k];
-  }
-  for (double& weight : weights) {
-    weight = sum > 0 ? weight / sum : 1.0 / 3;
-  }
-  return weights;
-}
-
-// Relative to the triangle's size: negative outside.
-double depth_inside(const std::array<Vec2, 3>& corners, const Vec2& point) {
-  const double area = doubled_area(corners[0], corners[1], corners[2]);
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < 3; ++k) {
-    least = std::min(least, doubled_area(point, corners[(k + 1) % 3], corners[(k + 2) % 3]));
-  }
-  return area > 0 ? least / area : -std::numeric_limits<double>::infinity();
-}
-
-}  // namespace
-
-std::uint32_t Surface::State::best_triangle(std::span<const ShareTriangle> triangles, const Vec2& point) const {
-  std::uint32_t best = 0;
-  double deepest = -std::numeric_limits<double>::infinity();
-  for (std::uint32_t k = 0; triangles.size() > 1 && k < triangles.size(); ++k) {
-    const double depth = depth_inside(corners(triangles[k]), point);
-    if (depth > deepest) {
-      deepest = depth;
-      best = k;
-    }
-  }
-  return best;
-}
 
 Surface::Surface(const Scene& scene, const WeldedScene& welded, const Facets& facets, const SurfaceOptions& options,
                  Host& host)
@@ -91,6 +54,28 @@ Surface::Surface(const Scene& scene, const WeldedScene& welded, const Facets& fa
 
 Surface::~Surface() {
   std::pmr::polymorphic_allocator<>(memory_).delete_object(state_);
+}
+
+std::pmr::vector<SampleOrigin> Surface::refine(std::span<const std::uint32_t> sites, std::uint32_t max_sites) {
+  const FloatingPointGuard guard(Denormals::keep);
+  for (const std::uint32_t site : sites) {
+    if (site >= state_->sites.size()) {
+      throw Error(ErrorCode::invalid_argument, "there is no site %u", site);
+    }
+  }
+  if (!state_->refinement) {
+    state_->refinement.emplace(*state_);
+  }
+  state_->refinement->raise(sites, max_sites);
+  return remake_surface(*state_, state_->refinement->take_changes());
+}
+
+std::uint32_t Surface::level_of(std::uint32_t site) const {
+  return state_->levels[site];
+}
+
+std::uint32_t Surface::max_level() const {
+  return refinements(state_->options);
 }
 
 std::span<const Site> Surface::sites() const {
@@ -129,7 +114,7 @@ std::uint32_t Surface::triangle_count() const {
 std::uint32_t Surface::constraint_count() const {
   std::uint32_t count = 0;
   for (const auto& mesh : state_->meshes) {
-    count += mesh->degenerate() ? 0 : mesh->triangulation().constraint_count();
+    count += !mesh || mesh->degenerate() ? 0 : mesh->triangulation().constraint_count();
   }
   return count;
 }
@@ -141,16 +126,18 @@ void Surface::cell(std::uint32_t index, std::pmr::vector<Vec3>& polygon) const {
   const std::uint32_t front = share.back ? share.other_side : index;
   polygon.clear();
   const auto append = [&](const Vec2& point) { polygon.push_back(frame.to_world(point)); };
-  if (state_->has_plain_triangles(record)) {
+  const FacetMesh* mesh = state_->triangulated(share.facet);
+  if (!mesh) {
     const std::uint32_t number = front - record.first_share;
-    const auto cells = triangle_cells(state_->corners(state_->triangles_of(share.facet)[number / 3]));
+    const LocatedFacet facet = state_->located(share.facet);
+    const auto cells = triangle_cells(facet.corners(facet.triangles[number / 3]));
     const CornerCell& cell = cells[number % 3];
     std::for_each(cell.points.begin(), cell.points.begin() + cell.count, append);
   } else {
     alignas(std::max_align_t) std::byte room[4096];
     std::pmr::monotonic_buffer_resource scratch(room, sizeof room, memory_);
     delaunay::CellBuffer buffer(&scratch);
-    const auto points = state_->meshes[record.mesh]->cell(share.vertex, front, buffer);
+    const auto points = mesh->cell(share.vertex, front, buffer);
     std::for_each(points.begin(), points.end(), append);
   }
   if (share.back) {
@@ -159,11 +146,7 @@ void Surface::cell(std::uint32_t index, std::pmr::vector<Vec3>& polygon) const {
 }
 
 FacetPoint Surface::locate(std::uint32_t facet, const Vec2& point) const {
-  const auto triangles = state_->triangles_of(facet);
-  const FacetRecord& record = state_->records[facet];
-  const std::uint32_t found = state_->has_plain_triangles(record) ? state_->best_triangle(triangles, point)
-                                                                  : state_->meshes[record.mesh]->locate(point);
-  return {triangles[found], clamped_weights(state_->corners(triangles[found]), point)};
+  return state_->located(facet).locate(point);
 }
 
 const Scene& Surface::scene() const {

@@ -36,6 +36,9 @@ struct Site {
   Vec3 position;                  ///< the same bits for all facets that share it
   std::uint32_t vertex = k_none;  ///< welded vertex, or k_none
   std::uint32_t edge = k_none;    ///< welded edge that it lies inside, or k_none
+  /// Sites whose midpoint it is, where a refinement made it and both were there after it; else k_none.
+  std::array<std::uint32_t, 2> parents = {k_none, k_none};
+  std::uint8_t level = 0;  ///< how often the first lattice was refined to make it
 };
 
 struct Sample {
@@ -59,6 +62,13 @@ struct Share {
   std::uint32_t next_in_sample = k_none;
   std::uint32_t other_side = k_none;  ///< the same cell seen from the other side of a two-sided facet
   bool back = false;
+};
+
+/// Where the light that a sample had before a refinement comes from: samples of the surface as it was then.
+struct SampleOrigin {
+  std::array<std::uint32_t, 3> samples;
+  std::array<float, 3> weights;  ///< >= 0, sum 1
+  bool kept;                     ///< the sample was there: it is samples[0], with weight 1
 };
 
 /// A facet's triangles. Corners name the front's share (its site, sample and albedo follow; the back's is other_side).
@@ -89,6 +99,24 @@ class Surface {
   std::span<const ShareTriangle> triangles(std::uint32_t facet) const;
   std::uint32_t triangle_count() const;
   std::uint32_t constraint_count() const;
+
+  /// Raises the level around sites by one, in the order given: each inserts its missing neighbours of the next level,
+  /// on its facets' lattices (refinement.h) and on its borders. Sites near by that would lag by two levels are raised
+  /// first, across borders too. Sites keep their numbers and new ones are appended; shares, samples, patches and
+  /// triangles are numbered anew. Which sites there are depends on the levels that sites were raised to, never on the
+  /// order or the rounds.
+  ///
+  /// Sites at max_level() stay. max_sites (0: no limit): the first site whose raising would lead beyond it, and those
+  /// that follow, are left as they are. Takes time for the facets that change, and a pass over all samples.
+  /// Returns an origin for each sample. Throws Error (invalid_argument) for a site that there is not; whatever else it
+  /// throws leaves a surface that can only be destroyed.
+  std::pmr::vector<SampleOrigin> refine(std::span<const std::uint32_t> sites, std::uint32_t max_sites = 0);
+
+  /// How often the surroundings of a site were refined: at least its own level, at most max_level(). Levels of sites
+  /// that are joined by an edge differ by at most one.
+  std::uint32_t level_of(std::uint32_t site) const;
+  /// From min_spacing; the spacing there is the first elements' halved so many times.
+  std::uint32_t max_level() const;
 
   /// The share's cell, counter-clockwise about its own side's normal, star-shaped about its site; replaces polygon.
   /// Areas of a facet's cells sum to its area to 1e-12; each point belongs to the nearest site that it sees.

@@ -1,4 +1,4 @@
-// What a surface is made of, for the steps that make it.
+// What a surface is made of, for the steps that make and refine it.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "surface/border_sites.h"
 #include "surface/facet_draft.h"
 #include "surface/facet_mesh.h"
 #include "surface/surface.h"
@@ -14,12 +15,34 @@
 namespace radvor {
 
 /// Where a facet's things are. Shares are numbered fronts first, then the backs of two-sided materials in the same
-/// order; ids are only ever appended.
+/// order.
 struct FacetRecord {
   std::uint32_t first_share = k_none;  ///< k_none: the facet does not receive
   std::uint32_t share_count = 0;       ///< of the front
   std::uint32_t mesh = k_none;         ///< k_none: a single small triangle, shares first_share .. first_share + 2
   bool two_sided = false;
+};
+
+/// Where a site lies in what it may be refined with.
+struct SitePlace {
+  std::uint32_t facet = k_none;  ///< of sites inside of facets
+  bool on_lattice = false;       ///< of that facet, at index on the finest level
+  LatticeIndex index{0, 0};      ///< of border sites: i is the step on the edge (border_sites.h)
+};
+
+/// What samples and patches are made of, share by share.
+struct ShareDetails {
+  explicit ShareDetails(std::pmr::memory_resource* memory) : site(memory), normal(memory), receiver(memory) {}
+
+  void resize(std::size_t count) {
+    site.resize(count);
+    normal.resize(count);
+    receiver.resize(count);
+  }
+
+  std::pmr::vector<std::uint32_t> site;
+  std::pmr::vector<Vec3> normal;    ///< unit, on the share's side
+  std::pmr::vector<Vec3> receiver;  ///< inside the share's cell
 };
 
 struct SurfaceParts {
@@ -31,18 +54,21 @@ struct SurfaceParts {
         options(options_given),
         host(lender),
         memory(&lender.memory),
+        borders(scene, welded, facets, options, memory),
         sites(memory),
+        places(memory),
+        levels(memory),
         samples(memory),
         shares(memory),
+        details(memory),
         records(facets_found.facets.size(), memory),
         meshes(memory),
+        drafts(memory),
         small_triangles(memory),
         first_of_patch(memory),
         patch_members(memory) {}
 
-  FacetInput input(std::uint32_t facet, const BorderSites& borders) const {
-    return {scene, welded, facets, options, borders, memory, facet};
-  }
+  FacetInput input(std::uint32_t facet) const { return {scene, welded, facets, options, borders, memory, facet}; }
   Vec2 position_in_facet(std::uint32_t share) const {
     return facets.facets[shares[share].facet].frame.to_plane(sites[samples[shares[share].sample].site].position);
   }
@@ -54,31 +80,25 @@ struct SurfaceParts {
   Host& host;
   std::pmr::memory_resource* memory;
 
+  BorderSites borders;
   std::pmr::vector<Site> sites;
+  std::pmr::vector<SitePlace> places;     // per site
+  std::pmr::vector<std::uint8_t> levels;  // per site: what it was raised to
   std::pmr::vector<Sample> samples;
   std::pmr::vector<Share> shares;
+  ShareDetails details;
   std::pmr::vector<FacetRecord> records;
-  std::pmr::deque<std::optional<FacetMesh>> meshes;
-  std::pmr::vector<ShareTriangle> small_triangles;  // per facet; that of facets without a mesh
-  std::pmr::vector<std::uint32_t> first_of_patch;   // per patch, and one past the last
+  std::pmr::deque<std::optional<FacetMesh>> meshes;  // empty ones are free
+  std::pmr::deque<FacetDraft> drafts;                // per mesh
+  std::pmr::vector<ShareTriangle> small_triangles;   // per facet; that of facets without a mesh
+  std::pmr::vector<std::uint32_t> first_of_patch;    // per patch, and one past the last
   std::pmr::vector<std::uint32_t> patch_members;
 };
 
-/// What is known of the surface while it is made. Drafts belong to meshes, the others to shares.
-struct SurfaceDraft {
-  explicit SurfaceDraft(std::pmr::memory_resource* memory)
-      : facets(memory), site_of_share(memory), normals(memory), receivers(memory) {}
-
-  std::pmr::deque<FacetDraft> facets;
-  std::pmr::vector<std::uint32_t> site_of_share;
-  std::pmr::vector<Vec3> normals;    // unit, on the share's side
-  std::pmr::vector<Vec3> receivers;  // inside the share's cell
-};
-
 /// Groups shares into samples over smooth edges (samples.cpp).
-void make_samples(SurfaceParts& parts, const SurfaceDraft& draft, const BorderSites& borders);
+void make_samples(SurfaceParts& parts);
 
 /// Groups shares into patches (patches.cpp).
-void make_patches(SurfaceParts& parts, const SurfaceDraft& draft);
+void make_patches(SurfaceParts& parts);
 
 }  // namespace radvor

@@ -20,7 +20,7 @@ struct Prepared {
         welded(weld(scene, 0, host)),
         facets(find_facets(scene, welded, std::numbers::pi / 6, host)),
         options{Lattice::hexagonal, spacing, 0, 0},
-        borders(scene, welded, facets, FacetLattice(Lattice::hexagonal, spacing, Vec2(0.0)).column(0), &host.memory) {}
+        borders(scene, welded, facets, options, &host.memory) {}
 
   FacetInput input(std::uint32_t facet) { return {scene, welded, facets, options, borders, &host.memory, facet}; }
 

@@ -1,0 +1,39 @@
+#include "surface/facet_ground.h"
+
+#include "delaunay/triangulation.h"
+#include "surface/facet_outline.h"
+
+namespace radvor {
+
+FacetGround::FacetGround(const FacetInput& input)
+    : frame_(input.facet().frame),
+      segments_(input.memory),
+      edges_(input.memory),
+      lattice_(find_segments(input)),
+      grid_(segments_, lattice_.column(0), input.memory) {}
+
+// The lattice lies as the facet's triangulation has it: about the middle of its corners.
+FacetLattice FacetGround::find_segments(const FacetInput& input) {
+  const FacetOutline outline(input.welded, input.facets, input.index, input.memory);
+  Vec2 low(0.0);
+  Vec2 high(0.0);
+  for (const bool border : {true, false}) {
+    for (const OutlineEdge& edge : outline.edges) {
+      if ((edge.flags == delaunay::constraint::k_border) == border) {
+        const Edge& ends = input.welded.edges[edge.edge];
+        const Segment segment{frame_.to_plane(input.welded.positions[ends.a]),
+                              frame_.to_plane(input.welded.positions[ends.b])};
+        const Vec2 least = glm::min(segment.a, segment.b);
+        const Vec2 most = glm::max(segment.a, segment.b);
+        low = segments_.empty() ? least : glm::min(low, least);
+        high = segments_.empty() ? most : glm::max(high, most);
+        segments_.push_back(segment);
+        edges_.push_back(edge.edge);
+      }
+    }
+    border_count_ = border ? static_cast<std::uint32_t>(segments_.size()) : border_count_;
+  }
+  return {input.options.lattice, input.options.patch_spacing, 0.5 * (low + high)};
+}
+
+}  // namespace radvor

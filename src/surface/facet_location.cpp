@@ -1,0 +1,65 @@
+#include "surface/facet_location.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "surface/triangle_cells.h"
+
+namespace radvor {
+
+namespace {
+
+// Corner weights of the nearest sensible point in the triangle: negative ones are cut off.
+std::array<double, 3> clamped_weights(const std::array<Vec2, 3>& corners, const Vec2& point) {
+  std::array<double, 3> weights;
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    weights[k] = std::max(doubled_area(point, corners[(k + 1) % 3], corners[(k + 2) % 3]), 0.0);
+    sum += weights[k];
+  }
+  for (double& weight : weights) {
+    weight = sum > 0 ? weight / sum : 1.0 / 3;
+  }
+  return weights;
+}
+
+// Relative to the triangle's size: negative outside.
+double depth_inside(const std::array<Vec2, 3>& corners, const Vec2& point) {
+  const double area = doubled_area(corners[0], corners[1], corners[2]);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 3; ++k) {
+    least = std::min(least, doubled_area(point, corners[(k + 1) % 3], corners[(k + 2) % 3]));
+  }
+  return area > 0 ? least / area : -std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+std::array<Vec2, 3> LocatedFacet::corners(const ShareTriangle& triangle) const {
+  std::array<Vec2, 3> points;
+  for (std::size_t k = 0; k < 3; ++k) {
+    points[k] = frame.to_plane(sites[samples[shares[triangle[k]].sample].site].position);
+  }
+  return points;
+}
+
+// The one that the point is farthest inside of, or least outside.
+std::size_t LocatedFacet::best_triangle(const Vec2& point) const {
+  std::size_t best = 0;
+  double deepest = -std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; triangles.size() > 1 && k < triangles.size(); ++k) {
+    const double depth = depth_inside(corners(triangles[k]), point);
+    if (depth > deepest) {
+      deepest = depth;
+      best = k;
+    }
+  }
+  return best;
+}
+
+FacetPoint LocatedFacet::locate(const Vec2& point) const {
+  const ShareTriangle& found = triangles[mesh ? mesh->locate(point) : best_triangle(point)];
+  return {found, clamped_weights(corners(found), point)};
+}
+
+}  // namespace radvor

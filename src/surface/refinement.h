@@ -1,0 +1,105 @@
+// Which sites a refinement inserts. A site that is raised to level k gets
+//   on its facet's lattice  the neighbours of levels k and k - 1 (the latter are there already, but near borders)
+//   on its borders          the next site of level k along each edge, to either side
+//   from a border           the lattice's points of level k within 2.25 spacings, on all facets there
+// where they lie inside the facet and half a spacing of level k clear of borders and constraints.
+//
+// Balance: before a site is raised to level k, what is around it is raised to k - 1: on the lattice its neighbours of
+// level k - 1, near borders all sites in the 7 x 7 squares of that spacing about it, on each of its facets.
+//
+// Both rules name places and levels, not triangles, and neither ever asks for less because more is there: so what
+// comes out is the least set that satisfies them, whatever the order.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <memory_resource>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "scene/index_table.h"
+#include "surface/facet_ground.h"
+#include "surface/make_surface.h"
+#include "surface/surface_parts.h"
+
+namespace radvor {
+
+class Refinement {
+ public:
+  explicit Refinement(SurfaceParts& parts);
+
+  /// Raises sites by one level each, in order, until one would lead beyond max_sites (0: no limit); appends new ones.
+  void raise(std::span<const std::uint32_t> sites, std::uint32_t max_sites);
+
+  /// The facets whose sites raise() changed, and their sites; the borders get the new sites on their edges.
+  ChangedFacets take_changes();
+
+ private:
+  struct Raising {
+    std::uint32_t site;
+    std::uint8_t level;
+  };
+  /// A square of a facet's plane in which all sites are raised to a level at least; its side is that level's spacing.
+  struct Mark {
+    std::uint32_t facet;
+    std::uint8_t level;
+    std::int64_t x, y;
+    bool operator==(const Mark&) const = default;
+  };
+
+  bool raise_with_balance(std::uint32_t site, std::uint8_t level, std::size_t max_sites);
+  void roll_back(std::size_t site_count);
+  void insert_around(std::uint32_t site, std::uint8_t level);
+  void insert_on_lattice(std::uint32_t site, std::uint8_t level);
+  void insert_on_edges(std::uint32_t site, std::uint8_t level);
+  void insert_beside(std::uint32_t site, std::uint32_t facet, std::uint8_t level);
+  std::uint32_t lattice_site(std::uint32_t facet, const LatticeIndex& index, std::uint8_t level, const Vec2& from,
+                             double from_clearance);
+  void edge_site(std::uint32_t edge, std::int64_t step, std::uint8_t level);
+
+  void mark(std::uint32_t facet, std::uint8_t level, const Vec2& point);
+  void settle(std::uint32_t facet, std::uint8_t level, const Vec2& low, const Vec2& high);
+  void follow_marks(std::uint32_t site, std::uint32_t facet, const Vec2& position);
+  bool is_marked(const Mark& square) const;
+  void need(std::uint32_t site, std::uint8_t level);
+
+  std::uint32_t append(const Vec3& position, std::uint8_t level, const SitePlace& place, double clearance);
+  void find_parents(std::uint32_t site);
+  std::uint32_t find_lattice_site(std::uint32_t facet, const LatticeIndex& index) const;
+  std::uint32_t find_edge_site(std::uint32_t edge, std::int64_t step) const;
+  std::uint64_t hash_of(std::uint32_t site) const;
+  void fill_table();
+  void list_edges();
+  double clearance_of(std::uint32_t site, double limit);
+
+  template <class Function>
+  void for_each_edge(std::uint32_t site, Function&& function) const;
+  template <class Function>
+  void for_each_facet(std::uint32_t site, Function&& function);
+
+  bool is_lattice_facet(std::uint32_t facet) const;
+  const FacetGround& ground(std::uint32_t facet);
+  double spacing(std::uint8_t level) const;
+  std::int64_t step(std::uint8_t level) const { return std::int64_t{1} << (finest_ - level); }
+  std::uint8_t coarsest(std::int64_t i, std::int64_t j) const;
+  std::span<const LatticeIndex> directions() const;
+
+  SurfaceParts& parts_;
+  std::uint8_t finest_;
+  std::uint32_t lattice_finest_;        // the same, as a level of the lattice
+  IndexTable table_;                    // sites on lattices and edges, by place
+  std::pmr::vector<double> clearance_;  // per site of a lattice: at most what it is; < 0: not known yet
+  std::pmr::vector<Mark> marks_;
+  IndexTable mark_table_;
+  std::pmr::vector<std::uint32_t> first_edge_, edges_;  // per welded vertex: the edges that end there and carry sites
+  std::pmr::vector<std::uint32_t> ground_of_;           // per facet, or k_none
+  std::pmr::deque<std::optional<FacetGround>> grounds_;
+
+  std::pmr::vector<Raising> pending_;       // a stack
+  std::pmr::vector<std::uint32_t> raised_;  // since the site at hand
+  std::uint32_t first_new_;
+};
+
+}  // namespace radvor

@@ -1,0 +1,190 @@
+#include "surface/sample_origins.h"
+
+#include <algorithm>
+
+#include "surface/facet_location.h"
+
+namespace radvor {
+
+SurfaceBefore::SurfaceBefore(SurfaceParts& parts, std::span<const std::uint32_t> changed_facets)
+    : shares(std::move(parts.shares)),
+      samples(std::move(parts.samples)),
+      details(std::move(parts.details)),
+      records(parts.records, parts.memory),
+      small_triangles(parts.small_triangles, parts.memory),
+      changed(parts.records.size(), std::uint8_t{0}, parts.memory) {
+  for (const std::uint32_t facet : changed_facets) {
+    changed[facet] = 1;
+  }
+}
+
+namespace {
+
+class OriginFinder {
+ public:
+  OriginFinder(const SurfaceParts& parts, const SurfaceBefore& before)
+      : parts_(parts), before_(before), old_share_(parts.shares.size(), k_none, parts.memory) {}
+
+  // Shares that were there before, on unchanged facets and of old sites on changed ones.
+  void match_shares(std::span<const std::uint32_t> changed) {
+    for (std::uint32_t facet = 0; facet < parts_.records.size(); ++facet) {
+      const FacetRecord& record = parts_.records[facet];
+      if (record.first_share == k_none || before_.is_changed(facet)) {
+        continue;
+      }
+      const std::uint32_t count = record.two_sided ? 2 * record.share_count : record.share_count;
+      for (std::uint32_t k = 0; k < count; ++k) {
+        old_share_[record.first_share + k] = before_.records[facet].first_share + k;
+      }
+    }
+    parts_.host.jobs.for_each(static_cast<std::uint32_t>(changed.size()), [&](std::uint32_t k) {
+      const std::uint32_t facet = changed[k];
+      const FacetMesh* mesh = triangulation(parts_.records[facet].mesh);
+      const FacetMesh* old_mesh = triangulation(before_.records[facet].mesh);
+      if (mesh && old_mesh) {
+        match_vertices(facet, *mesh, *old_mesh);
+      } else {
+        match_by_site(facet);
+      }
+      if (parts_.records[facet].two_sided) {
+        match_backs(facet);
+      }
+    });
+  }
+
+  std::pmr::vector<SampleOrigin> origins() const {
+    std::pmr::vector<SampleOrigin> found(parts_.samples.size(), parts_.memory);
+    constexpr std::uint32_t k_chunk = 1024;
+    const auto count = static_cast<std::uint32_t>(found.size());
+    parts_.host.jobs.for_each((count + k_chunk - 1) / k_chunk, [&](std::uint32_t chunk) {
+      for (std::uint32_t index = chunk * k_chunk; index < std::min(count, (chunk + 1) * k_chunk); ++index) {
+        found[index] = origin(parts_.samples[index]);
+      }
+    });
+    return found;
+  }
+
+ private:
+  const FacetMesh* triangulation(std::uint32_t mesh) const {
+    return mesh == k_none || parts_.meshes[mesh]->degenerate() ? nullptr : &*parts_.meshes[mesh];
+  }
+
+  LocatedFacet before(std::uint32_t facet) const {
+    const FacetRecord& record = before_.records[facet];
+    const std::span<const ShareTriangle> triangles =
+        record.mesh == k_none ? std::span<const ShareTriangle>(before_.small_triangles).subspan(facet, 1)
+                              : parts_.meshes[record.mesh]->triangles();
+    return {parts_.facets.facets[facet].frame,
+            triangles,
+            triangulation(record.mesh),
+            parts_.sites,
+            before_.samples,
+            before_.shares};
+  }
+
+  Vec2 receiver_in_plane(std::uint32_t facet, std::uint32_t share) const {
+    return parts_.facets.facets[facet].frame.to_plane(parts_.details.receiver[share]);
+  }
+
+  // Vertices come in the same order before and after, with new ones between.
+  void match_vertices(std::uint32_t facet, const FacetMesh& mesh, const FacetMesh& old_mesh) {
+    std::uint32_t old = 0;
+    for (std::uint32_t vertex = 0; vertex < mesh.sites().size(); ++vertex) {
+      if (old == old_mesh.sites().size() || old_mesh.sites()[old] != mesh.sites()[vertex]) {
+        continue;
+      }
+      const std::uint32_t first_old = old_mesh.first_share(old);
+      const std::uint32_t end_old = old_mesh.end_share(old);
+      for (std::uint32_t share = mesh.first_share(vertex); share < mesh.end_share(vertex) && first_old < end_old;
+           ++share) {
+        old_share_[share] = end_old == first_old + 1 ? first_old : same_sector(facet, share, first_old, end_old);
+      }
+      ++old;
+    }
+  }
+
+  // Which sector of the old vertex the share's receiver lies in.
+  std::uint32_t same_sector(std::uint32_t facet, std::uint32_t share, std::uint32_t first, std::uint32_t end) const {
+    const FacetPoint found = before(facet).locate(receiver_in_plane(facet, share));
+    for (const std::uint32_t corner : found.shares) {
+      if (corner >= first && corner < end) {
+        return corner;
+      }
+    }
+    std::uint32_t best = first;
+    for (std::uint32_t old = first + 1; old < end; ++old) {
+      best = distance(old, share) < distance(best, share) ? old : best;
+    }
+    return best;
+  }
+
+  // Between receivers.
+  double distance(std::uint32_t old, std::uint32_t share) const {
+    return glm::distance(before_.details.receiver[old], parts_.details.receiver[share]);
+  }
+
+  // Facets that are, or were, no triangulation: rare, or of three corners.
+  void match_by_site(std::uint32_t facet) {
+    const FacetRecord& record = parts_.records[facet];
+    const FacetRecord& old = before_.records[facet];
+    std::pmr::vector<std::uint32_t> by_site(parts_.memory);
+    for (std::uint32_t share = old.first_share; share < old.first_share + old.share_count; ++share) {
+      by_site.push_back(share);
+    }
+    const auto site = [&](std::uint32_t share) { return before_.details.site[share]; };
+    std::sort(by_site.begin(), by_site.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return site(a) != site(b) ? site(a) < site(b) : a < b; });
+    for (std::uint32_t share = record.first_share; share < record.first_share + record.share_count; ++share) {
+      const std::uint32_t wanted = parts_.details.site[share];
+      auto at = std::lower_bound(by_site.begin(), by_site.end(), wanted,
+                                 [&](std::uint32_t a, std::uint32_t b) { return site(a) < b; });
+      std::uint32_t& found = old_share_[share];
+      for (; at != by_site.end() && site(*at) == wanted; ++at) {
+        found = found == k_none || distance(*at, share) < distance(found, share) ? *at : found;
+      }
+    }
+  }
+
+  void match_backs(std::uint32_t facet) {
+    const FacetRecord& record = parts_.records[facet];
+    for (std::uint32_t front = record.first_share; front < record.first_share + record.share_count; ++front) {
+      if (old_share_[front] != k_none) {
+        old_share_[front + record.share_count] = before_.shares[old_share_[front]].other_side;
+      }
+    }
+  }
+
+  SampleOrigin origin(const Sample& sample) const {
+    for (std::uint32_t share = sample.first_share; share != k_none; share = parts_.shares[share].next_in_sample) {
+      if (old_share_[share] != k_none) {
+        const std::uint32_t old = before_.shares[old_share_[share]].sample;
+        return {{old, old, old}, {1, 0, 0}, true};
+      }
+    }
+    const Frame& frame = parts_.facets.facets[sample.facet].frame;
+    const FacetPoint point = before(sample.facet).locate(frame.to_plane(sample.point));
+    SampleOrigin origin{{}, {}, false};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Share& front = before_.shares[point.shares[k]];
+      origin.samples[k] =
+          parts_.shares[sample.first_share].back ? before_.shares[front.other_side].sample : front.sample;
+      origin.weights[k] = static_cast<float>(point.weights[k]);
+    }
+    return origin;
+  }
+
+  const SurfaceParts& parts_;
+  const SurfaceBefore& before_;
+  std::pmr::vector<std::uint32_t> old_share_;  // per share: the one it was, or k_none
+};
+
+}  // namespace
+
+std::pmr::vector<SampleOrigin> find_origins(const SurfaceParts& parts, const SurfaceBefore& before,
+                                            std::span<const std::uint32_t> changed) {
+  OriginFinder finder(parts, before);
+  finder.match_shares(changed);
+  return finder.origins();
+}
+
+}  // namespace radvor
