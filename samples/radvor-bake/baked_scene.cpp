@@ -84,6 +84,20 @@ radvor_result BakedScene::run(Progress progress, void* progress_user) {
   return result;
 }
 
+radvor_result BakedScene::create() {
+  radvor_solution* solution = nullptr;
+  const radvor_result result = radvor_solution_create(scene_.get(), &options_, &solution);
+  solution_.reset(solution);
+  check(result, "the geometry");
+  return result;
+}
+
+radvor_result BakedScene::advance(double seconds) {
+  const radvor_result result = radvor_solution_advance(solution_.get(), seconds, nullptr);
+  check(result, "the bake");
+  return result;
+}
+
 std::vector<BakedMesh> BakedScene::meshes() {
   std::vector<BakedMesh> meshes;
   for (std::size_t id = 0; id < data_.meshes.size(); ++id) {

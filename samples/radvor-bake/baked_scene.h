@@ -31,6 +31,10 @@ class BakedScene {
   /// RADVOR_OK, RADVOR_CANCELLED or RADVOR_TIME_SPENT: there are results after each.
   radvor_result run(Progress progress, void* progress_user);
 
+  /// The same in slices: all geometry, still dark; then as many seconds of light at a time.
+  radvor_result create();
+  radvor_result advance(double seconds);
+
   std::vector<BakedMesh> meshes();
   radvor_stats stats() const;
 

@@ -1,0 +1,116 @@
+// A bake through the public API: all-in processor time, from arrays to a solution, and the statistics.
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include "baked_scene.h"
+#include "failure.h"
+#include "modes.h"
+#include "processor_time.h"
+#include "scene_source.h"
+#include "stats_file.h"
+
+namespace bench {
+namespace {
+
+constexpr double k_point_distance = 1e-3;  // of the diagonal, as radvor-bake has it
+
+void log_errors(void*, std::int32_t level, const char* words) {
+  if (level == RADVOR_LOG_ERROR) {
+    std::fprintf(stderr, "%s\n", words);
+  }
+}
+
+std::uint64_t resident_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+void measure(const bake::Options& options, const bake::SceneData& scene, const bake::BakedScene& baked,
+             const bake::Points& points, const std::string& file) {
+  const bake::Bounds box = bake::bounds_of(scene);
+  std::vector<float> rgb;
+  std::vector<std::uint8_t> found;
+  baked.measure(points, options.quantity, k_point_distance * glm::length(box.high - box.low), rgb, found);
+  bake::save_values(file, rgb, found);
+}
+
+nlohmann::json statistics(const bake::BakedScene& baked, radvor_result result, const bake::Options& options,
+                          const bake::SceneData& scene) {
+  bake::Run run;
+  run.result = result;
+  run.stats = baked.stats();
+  return nlohmann::json::parse(bake::stats_json(run, options, scene));
+}
+
+}  // namespace
+
+int radvor_mode(int argc, const char* const* argv) {
+  const std::optional<bake::Options> options = bake::parse_options(argc, argv);
+  if (!options) {
+    return 0;
+  }
+  const bake::SceneData scene = load_scene(options->scene);
+  const bake::Points points = options->points.empty() ? bake::Points{} : bake::load_points(options->points);
+  const std::uint64_t before = resident_bytes();
+  const auto begin = std::chrono::steady_clock::now();
+  const double cpu_begin = processor_seconds();
+  bake::BakedScene baked(scene, *options, log_errors, nullptr);
+  const radvor_result result = baked.run(nullptr, nullptr);
+  const double cpu = processor_seconds() - cpu_begin;
+  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  nlohmann::json json = statistics(baked, result, *options, scene);
+  json["seconds"] = wall;
+  json["cpu_seconds"] = cpu;
+  json["resident_bytes"] = resident_bytes() - before;
+  if (points.count() > 0) {
+    const double points_begin = processor_seconds();
+    measure(*options, scene, baked, points, options->points_out);
+    json["points_cpu_seconds"] = processor_seconds() - points_begin;
+  }
+  std::printf("%s\n", json.dump().c_str());
+  return 0;
+}
+
+int slices_mode(double slice, int argc, const char* const* argv) {
+  const std::optional<bake::Options> options = bake::parse_options(argc, argv);
+  if (!options) {
+    return 0;
+  }
+  const bake::SceneData scene = load_scene(options->scene);
+  const bake::Points points = options->points.empty() ? bake::Points{} : bake::load_points(options->points);
+  const double given = options->bake.max_seconds > 0 ? options->bake.max_seconds : 60;
+  bake::Options unlimited = *options;
+  unlimited.bake.max_seconds = 0;
+  bake::BakedScene baked(scene, unlimited, log_errors, nullptr);
+  double total = 0;
+  int number = 0;
+  radvor_result result = RADVOR_TIME_SPENT;
+  while (result == RADVOR_TIME_SPENT && total < given) {
+    const auto begin = std::chrono::steady_clock::now();
+    const double cpu_begin = processor_seconds();
+    result = number == 0 ? baked.create() : baked.advance(slice);
+    const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const double cpu = processor_seconds() - cpu_begin;
+    if (number == 0) {
+      result = RADVOR_TIME_SPENT;  // created: dark, all of the work is still to come
+    }
+    total += wall;
+    nlohmann::json json{{"slice", number}, {"seconds", wall}, {"cpu_seconds", cpu}, {"total_seconds", total}};
+    if (points.count() > 0) {
+      const std::string file = options->points_out + "-" + std::to_string(number) + ".csv";
+      measure(*options, scene, baked, points, file);
+      json["points"] = file;
+    }
+    std::printf("%s\n", json.dump().c_str());
+    std::fflush(stdout);
+    ++number;
+  }
+  return 0;
+}
+
+}  // namespace bench

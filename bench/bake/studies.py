@@ -1,0 +1,173 @@
+"""What the curves do not tell: each skip's worth and harmlessness, threads, growth, memory, the share of ray casting, first
+light, and a city of a million triangles. Every study prints as it goes and returns what goes into the JSON."""
+import math
+import os
+import pathlib
+import tempfile
+
+import curves
+import runs
+from errors import errors, load_reference
+
+k_city_lights = ["--light", "sky 1 1.2 1.5", "--light", "sun 0.4 -1 0.3 6 5.6 5"]
+
+
+def say(*words):
+    print(*words, flush=True)
+
+
+def skips(scenes, options):
+    """With each skip off: seconds, rays, error, and how far the light moved (rms over the reference's mean)."""
+    result = {}
+    for scene in scenes:
+        mean = load_reference(scene.reference())[0].mean()
+        rows = {}
+        for skip in ("none", *curves.k_skips):
+            arguments = ["--tolerance", options.tolerance, "--threads", 1]
+            arguments += [] if skip == "none" else ["--disable", skip]
+            run = runs.bake(scene, arguments, options.max_seconds, keep=True)
+            if run is None:
+                say(f"{scene.name:<12} without {skip}: no answer in time")
+                continue
+            values = run.pop("values")
+            if skip == "none":
+                base = values
+            run["moved"] = math.sqrt(float(((values - base) ** 2).mean())) / mean
+            rows[skip] = run
+            curves.say(scene, f"off: {skip}", run)
+            say(f"{'':<12} moved {100 * run['moved']:.3f} %")
+            if skip == "none" and not run["finished"]:
+                break
+        result[scene.name] = rows
+    return result
+
+
+def threads(scenes, options):
+    """Wall-clock seconds of 1 and 2 threads, the best of three: the machine has to be idle for this one."""
+    result = {}
+    for scene in scenes:
+        best = {}
+        for count in (1, 2, 1, 2, 1, 2):
+            run = runs.bake(scene, ["--tolerance", options.tolerance, "--threads", count], options.max_seconds)
+            if run is None or not run["finished"]:
+                break
+            if count not in best or run["seconds"] < best[count]["seconds"]:
+                best[count] = run
+        if len(best) == 2:
+            speed = best[1]["seconds"] / best[2]["seconds"]
+            overhead = best[2]["cpu_seconds"] / best[1]["cpu_seconds"]
+            result[scene.name] = {"seconds": {k: v["seconds"] for k, v in best.items()}, "speed": speed,
+                                  "cpu_seconds_of_two_over_one": overhead, "load": os.getloadavg()[0]}
+            say(f"{scene.name:<12} 1 thread {best[1]['seconds']:.2f} s, 2 threads {best[2]['seconds']:.2f} s: "
+                f"{speed:.2f} times; processor time {overhead:.2f} times; load {os.getloadavg()[0]:.1f}")
+    return result
+
+
+def growth(name, count_of, series, options):
+    """Exponents between neighbours of a series of (scene, arguments)."""
+    rows = []
+    for scene, arguments in series:
+        run = runs.bake(scene, ["--tolerance", options.tolerance, "--threads", 1, *arguments], options.max_seconds)
+        if run is None or not run["finished"]:
+            say(f"{name:<12} {scene.name}: no answer in {options.max_seconds:.0f} s")
+            break
+        rows.append({"count": count_of(scene, run), "cpu_seconds": run["cpu_seconds"], "rays": run["rays"],
+                     "sites": run["sites"], "peak_bytes": run["peak_bytes"]})
+        words = f"{name:<12} {rows[-1]['count']:>9,}  {run['cpu_seconds']:.2f} s  {run['sites']:,} sites"
+        if len(rows) > 1:
+            a, b = rows[-2], rows[-1]
+            b["exponent"] = math.log(b["cpu_seconds"] / a["cpu_seconds"]) / math.log(b["count"] / a["count"])
+            words += f"  exponent {b['exponent']:.2f}"
+        say(words)
+    return rows
+
+
+def scaling(scenes, options):
+    work = options.work
+    receivers = []
+    for scene in scenes[:1]:
+        for sites in (4_000, 16_000, 64_000):
+            spacing = curves.spacing_for(scene, sites)
+            receivers.append((scene, ["--patch-spacing", spacing * 4, "--min-spacing", spacing, "--element-levels", 2,
+                                      "--disable", "refinement"]))
+    halls = [(runs.Scene(f"hall:2:{cells}", work), []) for cells in (25, 50, 100, 200)]
+    lamps = [(runs.Scene(f"hall:{count}:25", work), []) for count in (2, 4, 8, 16)]
+    for scene, _ in halls + lamps:
+        scene.reference = lambda direct=False: None
+    return {
+        "receivers": growth("receivers", lambda scene, run: run["sites"], receivers, options),
+        "triangles": growth("triangles", lambda scene, run: run["input_triangles"], halls, options),
+        "lamps": growth("lamps", lambda scene, run: int(scene.name.split(":")[1]) ** 2, lamps, options),
+    }
+
+
+def memory(scenes, options):
+    result = {}
+    for scene in scenes:
+        run = runs.bake(scene, ["--tolerance", options.tolerance, "--threads", 1], options.max_seconds)
+        if run is None:
+            continue
+        row = {key: run[key] for key in ("sites", "input_triangles", "triangles", "peak_bytes", "resident_bytes", "finished")}
+        row["bytes_per_site"] = run["peak_bytes"] / max(1, run["sites"])
+        row["bytes_per_input_triangle"] = run["peak_bytes"] / run["input_triangles"]
+        result[scene.name] = row
+        say(f"{scene.name:<12} {run['peak_bytes'] / 1e6:.1f} MB at most ({run['resident_bytes'] / 1e6:.1f} MB resident): "
+            f"{row['bytes_per_site']:,.0f} a site, {row['bytes_per_input_triangle']:,.0f} a triangle of the input")
+    return result
+
+
+def embree(scenes, options):
+    """All-in time over that of the same rays in a bare loop."""
+    result = {}
+    for scene in scenes:
+        lines = runs.run(["replay", scene.obj, *scene.light_arguments(), "--tolerance", options.tolerance,
+                          "--max-seconds", options.max_seconds], seconds=8 * options.max_seconds + 60)
+        if not lines:
+            continue
+        row = lines[0]
+        row["share_of_rays"] = row["bare_loop_cpu_seconds"] / row["cpu_seconds"]
+        row["share_of_build"] = row["build_cpu_seconds"] / row["cpu_seconds"]
+        if row["bare_loop_cpu_seconds"] > 0:
+            row["bare_rays_per_second"] = row["rays"] / row["bare_loop_cpu_seconds"]
+        result[scene.name] = row
+        say(f"{scene.name:<12} {row['cpu_seconds']:.2f} s all in, {row['rays'] / 1e6:.2f} M rays: bare loop "
+            f"{row['bare_loop_cpu_seconds']:.2f} s, {100 * row['share_of_rays']:.0f} %; "
+            f"{row.get('bare_rays_per_second', 0) / 1e6:.1f} M rays/s; tree {100 * row['share_of_build']:.0f} %")
+    return result
+
+
+def first_light(scenes, options):
+    """Direct light in slices: what each took, and its error after each."""
+    result = {}
+    for scene in scenes:
+        reference = scene.reference(direct=True)
+        with tempfile.TemporaryDirectory() as folder:
+            lines = runs.run(["slices", options.slice, scene.obj, *scene.light_arguments(), "--tolerance",
+                              options.tolerance, "--max-seconds", 10, "--quantity", "direct", "--points", reference,
+                              "--points-out", pathlib.Path(folder) / "values"], seconds=1200)
+            for line in lines:
+                line["error"] = errors(reference, line.pop("points"))
+        result[scene.name] = lines
+        lit = next((line for line in lines if line["error"]["rms"] <= 0.3), None)
+        late = max((line["seconds"] for line in lines[1:]), default=0)
+        say(f"{scene.name:<12} geometry {lines[0]['seconds']:.2f} s; direct light within 30 % after "
+            + (f"{lit['total_seconds']:.2f} s in all" if lit else "more than 10 s")
+            + f"; slices of {options.slice} s: the longest {late:.2f} s, of {len(lines) - 1}")
+    return result
+
+
+def city(_, options):
+    scene = runs.Scene(f"city:{options.triangles}", options.work)
+    scene.reference = lambda direct=False: None
+    run = runs.bake(scene, ["--tolerance", 0.2, "--threads", 2, *k_city_lights], options.max_seconds)
+    if run is None:
+        say(f"{scene.name}: no answer in {3 * options.max_seconds + 60:.0f} s")
+        return {"finished": False, "stopped_after_seconds": 3 * options.max_seconds + 60}
+    curves.say(scene, "tolerance 0.2", run)
+    say(f"{'':<12} {run['input_triangles']:,} triangles, {run['seconds']:.0f} s on 2 threads, "
+        f"{run['peak_bytes'] / 2**30:.2f} GiB by its count, {run['resident_bytes'] / 2**30:.2f} GiB resident")
+    return run
+
+
+k_studies = {"skips": skips, "threads": threads, "scaling": scaling, "memory": memory, "embree": embree,
+             "first-light": first_light, "city": city}
