@@ -74,6 +74,7 @@ BakeOptions resolve_options(const radvor_bake_options* options, radvor_bake_opti
   resolved.spacing.min_spacing = given.min_spacing;
   resolved.spacing.element_levels = given.element_levels;
   resolved.spacing.max_sites = given.max_sites;
+  resolved.spacing.refines = k_refines_by_default && (given.disable & Disable::refinement) == 0;
   return resolved;
 }
 

@@ -8,7 +8,7 @@ namespace radvor {
 namespace {
 
 constexpr double k_patches_at_unit_tolerance = 30;  // patches = this / tolerance
-constexpr std::uint32_t k_refinements = 3;          // from the first elements to min_spacing, where left open
+constexpr std::uint32_t k_refinements = 4;          // from the patches to min_spacing, where left open
 constexpr double k_most_sites = 1 << 28;            // ids are 32 bits, and a sample may have several shares
 
 // What the number of sites depends on: lattice sites go by area, border sites by length, corners are there anyway.
@@ -46,7 +46,11 @@ double estimate_sites(const Extent& extent, Lattice lattice, double spacing) {
   return extent.one_sided / (cell_shape(lattice) * spacing * spacing) + extent.border / spacing + extent.corners;
 }
 
-std::uint32_t levels_for(double tolerance) {
+// Of first elements.
+std::uint32_t levels_for(double tolerance, bool refines) {
+  if (refines) {
+    return 0;
+  }
   if (tolerance >= 0.08) {
     return 1;
   }
@@ -72,7 +76,8 @@ SurfaceOptions choose_spacing(const Scene& scene, const WeldedScene& welded, con
     options.patch_spacing = std::sqrt(extent.area / (patches * cell_shape(request.lattice)));
   }
 
-  options.element_levels = request.element_levels > 0 ? request.element_levels : levels_for(request.tolerance);
+  options.element_levels =
+      request.element_levels > 0 ? request.element_levels : levels_for(request.tolerance, request.refines);
   if (request.element_levels == 0) {
     while (options.element_levels > 0 &&
            scaled_down(options.patch_spacing, options.element_levels) < request.min_spacing) {
@@ -88,9 +93,12 @@ SurfaceOptions choose_spacing(const Scene& scene, const WeldedScene& welded, con
     options.patch_spacing *= 1.09050773266525766;  // 2^(1/8)
   }
 
-  options.min_spacing = request.min_spacing > 0
-                            ? request.min_spacing
-                            : scaled_down(options.patch_spacing, options.element_levels + k_refinements);
+  options.min_spacing = request.min_spacing;
+  if (!(request.min_spacing > 0)) {
+    const std::uint32_t levels =
+        request.refines ? std::max(k_refinements, options.element_levels) : options.element_levels;
+    options.min_spacing = scaled_down(options.patch_spacing, levels);
+  }
   return options;
 }
 

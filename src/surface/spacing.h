@@ -7,6 +7,9 @@
 
 namespace radvor {
 
+/// Whether sites are added where light demands them, unless the host turns it off: not before light asks for them.
+inline constexpr bool k_refines_by_default = false;
+
 /// What the host may say about density; 0 leaves it open.
 struct SpacingRequest {
   Lattice lattice = Lattice::hexagonal;
@@ -15,10 +18,12 @@ struct SpacingRequest {
   double min_spacing = 0;
   std::uint32_t element_levels = 0;
   std::uint32_t max_sites = 0;
+  bool refines = false;  ///< the first elements are the patches where it is left open, and refinement does the rest
 };
 
 /// Resolved so that the scene has about 30 / tolerance patches and, at the first elements' spacing, no more sites than
-/// max_sites (estimated from areas and border lengths).
+/// max_sites (estimated from areas and border lengths). Where refinement is on it
+/// goes down to a sixteenth of the patches' spacing if min_spacing is left open; where it is off there is none.
 SurfaceOptions choose_spacing(const Scene& scene, const WeldedScene& welded, const Facets& facets,
                               const SpacingRequest& request);
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "support/test_host.h"
+#include "surface/lattice.h"
 #include "surface/solids.h"
 
 namespace radvor {
@@ -64,6 +65,27 @@ TEST(Spacing, WhatIsAskedForIsTaken) {
   EXPECT_EQ(options.patch_spacing, 0.37);
   EXPECT_EQ(options.min_spacing, 0.01);
   EXPECT_EQ(options.element_levels, 2u);
+}
+
+TEST(Spacing, RefinementBeginsWithThePatchesAndEndsAtASixteenth) {
+  const Room room;
+  SpacingRequest request;
+  request.refines = true;
+  SurfaceOptions options = room.choose(request);
+  EXPECT_EQ(options.element_levels, 0u);
+  EXPECT_EQ(options.min_spacing, options.patch_spacing / 16);
+  EXPECT_EQ(refinements(options), 4u);
+  request.element_levels = 3;
+  EXPECT_EQ(refinements(room.choose(request)), 1u);
+  request.element_levels = 5;
+  EXPECT_EQ(refinements(room.choose(request)), 0u);
+  request.refines = false;
+  request.element_levels = 0;
+  EXPECT_EQ(refinements(room.choose(request)), 0u);
+  request.refines = true;
+  request.patch_spacing = 0.4;
+  request.min_spacing = 0.11;
+  EXPECT_EQ(refinements(room.choose(request)), 1u);
 }
 
 TEST(Spacing, FirstElementsAreNoFinerThanTheLeastSpacing) {
