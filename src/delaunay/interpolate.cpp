@@ -1,5 +1,6 @@
 // Values between the vertices: linear over triangles, and R. Sibson's natural-neighbour coordinates ("A brief
 // description of natural neighbour interpolation", 1981): what each cell would lose to the point's own.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -16,7 +17,8 @@ constexpr double k_unset = std::numeric_limits<double>::quiet_NaN();
 Vec2 circumcentre(Vec2 a, Vec2 b, Vec2 c) {
   const Vec2 p = b - a, q = c - a;
   const double pp = glm::dot(p, p), qq = glm::dot(q, q);
-  return a + Vec2(q.y * pp - p.y * qq, p.x * qq - q.x * pp) / (2 * cross(p, q));
+  const double scale = 0.5 / cross(p, q);
+  return a + scale * Vec2(q.y * pp - p.y * qq, p.x * qq - q.x * pp);
 }
 
 double along_edge(Vec2 a, Vec2 b, double at_a, double at_b, Vec2 point) {
@@ -50,7 +52,7 @@ double Triangulation::interpolate_linear(Vec2 point, VertexId* hint) const {
 // falls to the point has as corners the circumcentres of the old triangles around b and of the two new ones at b.
 double Triangulation::interpolate_natural(Vec2 point, VertexId* hint) const {
   const Location at = locate(point, hint);
-  if (at.where == Where::outside) {
+  if (at.where == Where::outside || values_.empty()) {
     return k_unset;
   }
   if (at.where == Where::vertex) {
@@ -71,6 +73,24 @@ double Triangulation::interpolate_natural(Vec2 point, VertexId* hint) const {
   const std::span<const Cavity::Slot> border(cavity.slots.data(), cavity.border_size);
 
   const auto offset = [&](VertexId v) { return positions_[v] - point; };
+  const auto compute_old_centre = [&](TriangleId t) {
+    const auto& v = mesh_.triangle(t).vertex;
+    return circumcentre(offset(v[0]), offset(v[1]), offset(v[2]));
+  };
+  // A centre is asked for about three times: the first few of the cavity are remembered in the order of its list.
+  std::array<Vec2, 16> centres;
+  const auto remembered = std::min(cavity.triangle_count, static_cast<std::uint32_t>(centres.size()));
+  for (std::uint32_t i = 0; i < remembered; ++i) {
+    centres[i] = compute_old_centre(cavity.slots[i].triangle);
+  }
+  const auto old_centre = [&](TriangleId t) {
+    for (std::uint32_t i = 0; i < remembered; ++i) {
+      if (cavity.slots[i].triangle == t) {
+        return centres[i];
+      }
+    }
+    return compute_old_centre(t);
+  };
   double weights = 0;
   double sum = 0;
   HalfEdge outer_before = border.back().outer;
@@ -81,17 +101,18 @@ double Triangulation::interpolate_natural(Vec2 point, VertexId* hint) const {
     Vec2 corner = centre;
     double twice_area = cross(centre_before, centre);
     // Around b, from the triangle at this side of the cavity to that at the side before.
-    for (HalfEdge h = twin(edge.outer);; h = twin(previous(h))) {
-      const Vec2 following = circumcentre(offset(origin(h)), offset(target(h)), offset(apex(h)));
+    for (HalfEdge h = twin(edge.outer);;) {
+      const Vec2 following = old_centre(triangle_of(h));
       twice_area += cross(corner, following);
       corner = following;
-      if (twin(previous(h)) == outer_before) {
+      h = twin(previous(h));
+      if (h == outer_before) {
         break;
       }
     }
     twice_area += cross(corner, centre_before);
     weights += twice_area;
-    sum += twice_area * value(b);
+    sum += twice_area * values_[b];
     centre_before = centre;
     outer_before = edge.outer;
   }

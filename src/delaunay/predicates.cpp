@@ -73,10 +73,13 @@ int orientation_far(Vec2 a, Vec2 b, Vec2 c) {
   const Two acx = two_difference(a.x, c.x), acy = two_difference(a.y, c.y);
   const Two bcx = two_difference(b.x, c.x), bcy = two_difference(b.y, c.y);
   if (acx.low == 0 && acy.low == 0 && bcx.low == 0 && bcy.low == 0) {
-    // Products are exact and rounding is monotonic: compare them.
-    const Two left = two_product(acx.high, bcy.high), right = two_product(acy.high, bcx.high);
-    return left.high != right.high ? (left.high > right.high ? 1 : -1)
-                                   : (left.low > right.low) - (left.low < right.low);
+    // Rounding is monotonic: where the rounded products differ, the exact ones do; else what was rounded off decides.
+    const double left = acx.high * bcy.high, right = acy.high * bcx.high;
+    if (left != right) {
+      return left > right ? 1 : -1;
+    }
+    const Two exact_left = two_product(acx.high, bcy.high), exact_right = two_product(acy.high, bcx.high);
+    return (exact_left.low > exact_right.low) - (exact_left.low < exact_right.low);
   }
   const Two left = acx * bcy, right = acy * bcx;
   const Two determinant = left - right;

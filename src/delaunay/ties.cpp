@@ -46,6 +46,7 @@ bool Triangulation::lies_on_circle(HalfEdge h) const {
 void Triangulation::refresh_ties() {
   TiePolygon polygon(memory_);
   std::pmr::vector<VertexId> touched(changed_, memory_);
+  std::sort(touched.begin(), touched.end());
   const auto has_changed = [&](VertexId v) { return std::binary_search(touched.begin(), touched.end(), v); };
   for (const VertexId v : touched) {
     const HalfEdge first = mesh_.out(v);

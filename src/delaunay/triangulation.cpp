@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/error.h"
 
@@ -17,6 +18,7 @@ Triangulation::Triangulation(std::pmr::memory_resource* memory)
       hints_(memory),
       reused_(memory),
       changed_(memory),
+      reports_(memory),
       stack_(memory),
       cavity_(memory) {}
 
@@ -122,11 +124,25 @@ HalfEdge Triangulation::hull_next(HalfEdge hull) const {
   return twin(previous(beside));
 }
 
+// Sorting a long report would take longer than the edit.
 void Triangulation::make_report_unique() {
-  std::sort(changed_.begin(), changed_.end());
-  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
-  changed_.erase(std::remove_if(changed_.begin(), changed_.end(), [&](VertexId v) { return !is_vertex(v); }),
-                 changed_.end());
+  constexpr std::size_t k_short = 48;
+  if (changed_.size() <= k_short) {
+    std::sort(changed_.begin(), changed_.end());
+    changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+    std::erase_if(changed_, [&](VertexId v) { return !is_vertex(v); });
+    return;
+  }
+  if (reports_.size() < positions_.size()) {
+    reports_.resize(positions_.capacity(), 0);
+  }
+  if (++report_number_ == 0) {
+    std::fill(reports_.begin(), reports_.end(), 0u);
+    ++report_number_;
+  }
+  std::erase_if(changed_, [&](VertexId v) {
+    return std::exchange(reports_[v], report_number_) == report_number_ || !is_vertex(v);
+  });
 }
 
 std::array<double, 3> Triangulation::barycentric(TriangleId t, Vec2 point) const {

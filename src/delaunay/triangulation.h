@@ -321,6 +321,8 @@ class Triangulation {
 
   // Scratch that insertions keep.
   std::pmr::vector<VertexId> changed_;
+  std::pmr::vector<std::uint32_t> reports_;  // of each vertex: the last long report it was in
+  std::uint32_t report_number_ = 0;
   std::pmr::vector<HalfEdge> stack_;
   Cavity cavity_;
 };
