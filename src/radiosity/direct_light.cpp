@@ -33,9 +33,6 @@ DirectLight::DirectLight(const Scene& scene, const WeldedScene& welded, const Fa
       punctual_.push_back(light);
     }
   }
-  if (!is_dark(sky_radiance_)) {
-    sky_.emplace(tolerance, &host.memory);
-  }
 
   double area = 0, power = 0;
   for (const Facet& facet : facets.facets) {
@@ -71,7 +68,7 @@ DirectLight::DirectLight(const Scene& scene, const WeldedScene& welded, const Fa
 }
 
 std::uint32_t DirectLight::source_count() const {
-  return static_cast<std::uint32_t>(punctual_.size() + (sky_ ? 1 : 0) + emitting_facets_.size());
+  return static_cast<std::uint32_t>(punctual_.size() + emitting_facets_.size());
 }
 
 Color DirectLight::irradiance(std::uint32_t source, const Receiver& receiver, Tracer& tracer) const {
@@ -79,12 +76,6 @@ Color DirectLight::irradiance(std::uint32_t source, const Receiver& receiver, Tr
     return irradiance_of_punctual_light(punctual_[source], receiver, tracer, far_);
   }
   source -= static_cast<std::uint32_t>(punctual_.size());
-  if (sky_) {
-    if (source == 0) {
-      return k_pi * sky_radiance_ * sky_->open_share(receiver, tracer, far_);
-    }
-    --source;
-  }
   Color sum(0.0);
   const EmitterRange range = emitting_facets_[source];
   for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {

@@ -1,15 +1,14 @@
-// All light sources of a scene, ready to shine on receivers: points, spots, suns, the sky, and surfaces that emit.
+// The light sources of a scene that have a direction or a place, ready to shine on receivers: points, spots, suns, and
+// surfaces that emit. The sky is seen by the rays of gather.h.
 #pragma once
 
 #include <memory_resource>
-#include <optional>
 #include <vector>
 
 #include "base/host.h"
 #include "radiosity/emitter.h"
 #include "radiosity/occluder_tree.h"
 #include "radiosity/receiver.h"
-#include "radiosity/sky.h"
 #include "radiosity/tracer.h"
 #include "scene/facets.h"
 #include "scene/scene.h"
@@ -23,8 +22,7 @@ class DirectLight {
   DirectLight(const Scene& scene, const WeldedScene& welded, const Facets& facets, const OccluderTree* occluders,
               double tolerance, Host& host);
 
-  /// A source is one light, the sky (all skies together), or the emitting triangles of one facet and side. Dark ones
-  /// are none.
+  /// A source is one light, or the emitting triangles of one facet and side. Dark ones and skies are none.
   std::uint32_t source_count() const;
 
   /// What one source adds at a receiver, W m^-2.
@@ -32,6 +30,7 @@ class DirectLight {
 
   std::span<const Light> punctual_lights() const { return punctual_; }
   std::span<const Emitter> emitters() const { return emitters_; }
+  /// All skies together, W sr^-1 m^-2.
   const Color& sky_radiance() const { return sky_radiance_; }
   /// Leads out of the scene from anywhere in it.
   double far() const { return far_; }
@@ -45,7 +44,6 @@ class DirectLight {
   std::pmr::vector<Light> punctual_;
   std::pmr::vector<Emitter> emitters_;
   std::pmr::vector<EmitterRange> emitting_facets_;
-  std::optional<Sky> sky_;
   Color sky_radiance_{0.0};
   EmitterAccuracy accuracy_;
   double far_ = 1;

@@ -159,40 +159,4 @@ FateMeter::Powers FateMeter::of_sources(const DirectLight& light, Host& host) co
   return all;
 }
 
-void FateMeter::of_roots(const ShootingTree& tree, std::span<Fate> fates, Host& host) const {
-  const auto roots = tree.roots();
-  host.jobs.for_each(static_cast<std::uint32_t>(roots.size()), [&](std::uint32_t index) {
-    fates[index] = {};
-    if (roots[index] == k_none) {
-      return;
-    }
-    const TreeNode& root = tree.nodes()[roots[index]];
-    std::uint32_t escaped = 0, backs = 0;
-    double before = 0;
-    std::uint32_t element = root.first_element;
-    for (std::uint32_t ray = 0; ray < k_rays_per_root; ++ray) {
-      const Point4 p(hash(seed_, 0x5f3759df, index), ray);
-      // Elements by area: rays are spread evenly over the running sum.
-      const double at = (ray + 0.5) / k_rays_per_root * root.piece.area;
-      const auto area = [&](std::uint32_t e) { return tree.nodes()[tree.elements()[e].node].piece.area; };
-      while (element + 1 < root.first_element + root.element_count && before + area(element) < at) {
-        before += area(element);
-        ++element;
-      }
-      const Element& chosen = tree.elements()[element];
-      const auto polygon = tree.polygon(chosen);
-      const PlanePiece& piece = tree.nodes()[chosen.node].piece;
-      const auto corner =
-          std::min(static_cast<std::size_t>(p.a * static_cast<double>(polygon.size())), polygon.size() - 1);
-      const std::array<Vec3, 3> fan = {piece.centroid, polygon[corner], polygon[(corner + 1) % polygon.size()]};
-      const double along = p.a * static_cast<double>(polygon.size()) - static_cast<double>(corner);
-      const Vec3 from = in_triangle(fan, p.b, along) + piece.normal * visibility_.lift();
-      const End end = follow(from, Basis(piece.normal).on_hemisphere(on_disk(p.c, p.d)));
-      escaped += end == End::escape;
-      backs += end == End::back;
-    }
-    fates[index] = {static_cast<double>(escaped) / k_rays_per_root, static_cast<double>(backs) / k_rays_per_root};
-  });
-}
-
 }  // namespace radvor

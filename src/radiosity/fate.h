@@ -8,18 +8,11 @@
 
 #include "base/host.h"
 #include "radiosity/direct_light.h"
-#include "radiosity/shooting_tree.h"
 #include "radiosity/tracer.h"
 #include "scene/scene.h"
 #include "scene/welded.h"
 
 namespace radvor {
-
-/// Shares of a power: the rest lands on surfaces that receive.
-struct Fate {
-  double escaped = 0;
-  double backs = 0;  ///< backs of one-sided surfaces, and meshes that do not receive
-};
 
 class FateMeter {
  public:
@@ -36,11 +29,6 @@ class FateMeter {
   /// What the light sources emit and what becomes of it before the first reflection. Sun and sky emit what enters the
   /// scene's bounding sphere.
   Powers of_sources(const DirectLight& light, Host& host) const;
-
-  /// The fate of what each root reflects, diffusely and uniformly over its elements; in order of the roots.
-  void of_roots(const ShootingTree& tree, std::span<Fate> fates, Host& host) const;
-
-  static constexpr std::uint32_t k_rays_per_root = 64;
 
  private:
   enum class End { receiver, back, escape };

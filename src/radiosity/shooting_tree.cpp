@@ -72,27 +72,33 @@ std::array<Vec3, 4> bounding_rectangle(const TreeNode& node) {
           at(node.low.x, node.high.y)};
 }
 
-ShootingTree::ShootingTree(const Surface& surface, Host& host)
+ShootingTree::ShootingTree(const Surface& surface, std::span<const std::uint32_t> patches, Host& host)
     : nodes_(&host.memory), elements_(&host.memory), corners_(&host.memory), roots_(&host.memory) {
   const auto shares = surface.shares();
   std::pmr::memory_resource* memory = &host.memory;
-  std::pmr::vector<PlanePiece> pieces(shares.size(), memory);
-  std::pmr::vector<double> radii(shares.size(), 0.0, memory);
-  std::pmr::vector<Bounds> bounds(shares.size(), Bounds{Vec2(0.0), Vec2(0.0)}, memory);
-  std::pmr::vector<std::uint32_t> first_corner(shares.size() + 1, 0, memory);
+  std::pmr::vector<std::uint32_t> members(memory), first_member(1, 0u, memory);
+  for (const std::uint32_t patch : patches) {
+    const auto of_patch = surface.patch(patch);
+    members.insert(members.end(), of_patch.begin(), of_patch.end());
+    first_member.push_back(static_cast<std::uint32_t>(members.size()));
+  }
+  std::pmr::vector<PlanePiece> pieces(members.size(), memory);
+  std::pmr::vector<double> radii(members.size(), 0.0, memory);
+  std::pmr::vector<Bounds> bounds(members.size(), Bounds{Vec2(0.0), Vec2(0.0)}, memory);
+  std::pmr::vector<std::uint32_t> first_corner(members.size() + 1, 0, memory);
 
-  // Cells in parallel, by blocks of shares; then one array.
-  constexpr std::uint32_t k_block = 1024;
-  const auto share_count = static_cast<std::uint32_t>(shares.size());
-  const std::uint32_t block_count = (share_count + k_block - 1) / k_block;
+  // Cells in parallel, by blocks of members; then one array.
+  constexpr std::uint32_t k_block = 256;
+  const auto member_count = static_cast<std::uint32_t>(members.size());
+  const std::uint32_t block_count = (member_count + k_block - 1) / k_block;
   std::pmr::vector<std::pmr::vector<Vec3>> block_corners(block_count, memory);
   host.jobs.for_each(block_count, [&](std::uint32_t block) {
     std::pmr::vector<Vec3> polygon(memory);
-    const std::uint32_t end = std::min(share_count, (block + 1) * k_block);
+    const std::uint32_t end = std::min(member_count, (block + 1) * k_block);
     for (std::uint32_t s = block * k_block; s < end; ++s) {
-      const Share& share = shares[s];
+      const Share& share = shares[members[s]];
       const Frame& frame = surface.facets().facets[share.facet].frame;
-      surface.cell(s, polygon);
+      surface.cell(members[s], polygon);
       pieces[s] = share.back ? measure_polygon(polygon, frame.v, frame.u, -frame.normal)
                              : measure_polygon(polygon, frame.u, frame.v, frame.normal);
       pieces[s].area = share.area;
@@ -106,35 +112,39 @@ ShootingTree::ShootingTree(const Surface& surface, Host& host)
       block_corners[block].insert(block_corners[block].end(), polygon.begin(), polygon.end());
     }
   });
-  for (std::uint32_t s = 0; s < share_count; ++s) {
+  for (std::uint32_t s = 0; s < member_count; ++s) {
     first_corner[s + 1] += first_corner[s];
   }
-  corners_.reserve(first_corner[share_count]);
+  corners_.reserve(first_corner[member_count]);
   for (auto& block : block_corners) {
     corners_.insert(corners_.end(), block.begin(), block.end());
     block = std::pmr::vector<Vec3>(memory);
   }
 
-  elements_.reserve(share_count);
-  nodes_.reserve(share_count + share_count / 4 + surface.patch_count());
-  for (std::uint32_t patch = 0; patch < surface.patch_count(); ++patch) {
+  elements_.reserve(member_count);
+  nodes_.reserve(member_count + member_count / 4 + patches.size());
+  for (std::size_t i = 0; i < patches.size(); ++i) {
     roots_.push_back(k_none);
-    add_patch(patch, surface, pieces, radii, bounds, memory);
+    add_patch(surface, members, first_member[i], first_member[i + 1], pieces, radii, bounds, memory);
   }
   for (Element& element : elements_) {
-    element.first_corner = first_corner[element.share];
-    element.corner_count = first_corner[element.share + 1] - first_corner[element.share];
-    element.convex = is_convex(polygon(element), pieces[element.share]);
+    const std::uint32_t member = element.share;
+    element.share = members[member];
+    element.first_corner = first_corner[member];
+    element.corner_count = first_corner[member + 1] - first_corner[member];
+    element.convex = is_convex(polygon(element), pieces[member]);
   }
 }
 
-void ShootingTree::add_patch(std::uint32_t patch, const Surface& surface, std::span<const PlanePiece> pieces,
+// Elements name members for now.
+void ShootingTree::add_patch(const Surface& surface, std::span<const std::uint32_t> members, std::uint32_t first_member,
+                             std::uint32_t end_member, std::span<const PlanePiece> pieces,
                              std::span<const double> radii, std::span<const Bounds> bounds,
                              std::pmr::memory_resource* memory) {
   std::pmr::vector<std::uint32_t> order(memory);
-  for (const std::uint32_t share : surface.patch(patch)) {
-    if (pieces[share].area > 0) {
-      order.push_back(share);
+  for (std::uint32_t member = first_member; member < end_member; ++member) {
+    if (pieces[member].area > 0) {
+      order.push_back(member);
     }
   }
   if (order.empty()) {
@@ -157,8 +167,8 @@ void ShootingTree::add_patch(std::uint32_t patch, const Surface& surface, std::s
     double area = node.piece.area;
     for (std::uint32_t i = begin + 1; i < end; ++i) {
       const PlanePiece& piece = pieces[order[i]];
-      node.flat = node.flat && shares[order[i]].facet == shares[order[begin]].facet &&
-                  shares[order[i]].back == shares[order[begin]].back;
+      node.flat = node.flat && shares[members[order[i]]].facet == shares[members[order[begin]]].facet &&
+                  shares[members[order[i]]].back == shares[members[order[begin]]].back;
       if (node.flat) {
         node.piece = join(node.piece, piece);
       }
@@ -186,10 +196,10 @@ void ShootingTree::add_patch(std::uint32_t patch, const Surface& surface, std::s
     return node;
   };
 
-  roots_[patch] = static_cast<std::uint32_t>(nodes_.size());
+  roots_.back() = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back(describe(0, static_cast<std::uint32_t>(order.size())));
   std::pmr::vector<std::uint32_t> ends(memory);
-  for (std::uint32_t parent = roots_[patch]; parent < nodes_.size(); ++parent) {
+  for (std::uint32_t parent = roots_.back(); parent < nodes_.size(); ++parent) {
     const std::uint32_t begin = nodes_[parent].first_element - base;
     const std::uint32_t count = nodes_[parent].element_count;
     if (count == 1) {

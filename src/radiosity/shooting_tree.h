@@ -1,4 +1,4 @@
-// What shoots, as trees: the leaves are elements (shares: a cell with its radiosity), inner nodes stand for all the
+// What shoots by itself, as trees: the leaves are elements (shares: a cell with its radiosity), inner nodes stand for all the
 // elements under them, one root for each patch. After Tampieri and Lischinski, The Constant Radiosity Assumption
 // Syndrome (1991), the paper's [17].
 #pragma once
@@ -46,15 +46,15 @@ std::array<Vec3, 4> bounding_rectangle(const TreeNode& node);
 
 class ShootingTree {
  public:
-  /// Measures every share's cell. Nodes come parents first.
-  ShootingTree(const Surface& surface, Host& host);
+  /// Of the given patches. Measures their shares' cells. Nodes come parents first.
+  ShootingTree(const Surface& surface, std::span<const std::uint32_t> patches, Host& host);
 
   std::span<const TreeNode> nodes() const { return nodes_; }
   std::span<const Element> elements() const { return elements_; }
   std::span<const Vec3> polygon(const Element& element) const {
     return std::span(corners_).subspan(element.first_corner, element.corner_count);
   }
-  /// The root of each patch; patches without area have none (k_none).
+  /// The root of each of the patches; those without area have none (k_none).
   std::span<const std::uint32_t> roots() const { return roots_; }
 
   /// Radiosity of each leaf in, of every node out; one entry a node.
@@ -65,8 +65,10 @@ class ShootingTree {
     Vec2 low, high;  // of a cell about its centroid
   };
 
-  void add_patch(std::uint32_t patch, const Surface& surface, std::span<const PlanePiece> pieces,
-                 std::span<const double> radii, std::span<const Bounds> bounds, std::pmr::memory_resource* memory);
+  // Members: shares of all patches; [begin, end): of this one. Pieces, radii and bounds are the members'.
+  void add_patch(const Surface& surface, std::span<const std::uint32_t> members, std::uint32_t begin, std::uint32_t end,
+                 std::span<const PlanePiece> pieces, std::span<const double> radii, std::span<const Bounds> bounds,
+                 std::pmr::memory_resource* memory);
 
   std::pmr::vector<TreeNode> nodes_;
   std::pmr::vector<Element> elements_;

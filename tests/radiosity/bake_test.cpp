@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <random>
 
+#include "radiosity/form_factor.h"
 #include "rooms.h"
 #include "test_bake.h"
 
@@ -111,6 +113,53 @@ TEST(Enclosure, AreaMeanOfPointLightInCubeOfCie171Case58) {
     EXPECT_NEAR(area, 96, 1e-9);
     EXPECT_NEAR(direct / area, 104.1667, 0.005 * 104.1667) << rho;
     EXPECT_NEAR(indirect / area, rho * 10000 / (96 * (1 - rho)), 0.005 * rho * 10000 / (96 * (1 - rho))) << rho;
+  }
+}
+
+TEST(Sky, RoofOpeningOfCie171Case59) {
+  // Room 4 x 4 x 3 m, black, the whole roof open to a uniform sky: E / E_out is the form factor of the opening.
+  SceneBuilder builder;
+  const std::uint32_t black = builder.material(Color(0.0));
+  builder.quad({0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, black);
+  builder.quad({0, 0, 0}, {0, 0, 3}, {4, 0, 3}, {4, 0, 0}, black);
+  builder.quad({0, 4, 0}, {4, 4, 0}, {4, 4, 3}, {0, 4, 3}, black);
+  builder.quad({0, 0, 0}, {0, 4, 0}, {0, 4, 3}, {0, 0, 3}, black);
+  builder.quad({4, 0, 0}, {4, 0, 3}, {4, 4, 3}, {4, 4, 0}, black);
+  Light sky;
+  sky.type = LightType::sky;
+  sky.color = Color(1.0);
+  builder.scene.lights = {sky};
+  TestBake bake(builder.take(), coarse(0.02, 0.5));
+  bake.run();
+  const std::array<Vec3, 4> opening = {Vec3(0, 0, 3), Vec3(0, 4, 3), Vec3(4, 4, 3), Vec3(4, 0, 3)};
+  const auto samples = (*bake).surface().samples();
+  double squares = 0, error = 0, mean = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double exact = polygon_form_factor(samples[i].point, samples[i].normal, opening, {0, 0, -1});
+    const double baked = (*bake).direct()[i].g / k_pi;
+    EXPECT_NEAR(baked, exact, 0.06) << i;
+    squares += (baked - exact) * (baked - exact);
+    error += baked - exact;
+    mean += exact;
+  }
+  const auto count = static_cast<double>(samples.size());
+  EXPECT_GT(count, 500);
+  EXPECT_LT(std::sqrt(squares / count), 0.02 * mean / count);
+  EXPECT_LT(std::abs(error), 0.002 * mean);
+}
+
+TEST(Sky, OpenPlainSeesAllOfIt) {
+  SceneBuilder builder;
+  builder.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, builder.material(Color(0.5)));
+  Light sky;
+  sky.type = LightType::sky;
+  sky.color = Color(0.25);
+  builder.scene.lights = {sky};
+  TestBake bake(builder.take(), coarse(0.02));
+  bake.run();
+  for (std::size_t i = 0; i < (*bake).surface().samples().size(); ++i) {
+    EXPECT_EQ((*bake).direct()[i], Color(k_pi * 0.25));
+    EXPECT_EQ((*bake).indirect()[i], Color(0.0));
   }
 }
 

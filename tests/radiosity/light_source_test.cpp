@@ -7,7 +7,6 @@
 #include "plates.h"
 #include "radiosity/emitter.h"
 #include "radiosity/punctual_light.h"
-#include "radiosity/sky.h"
 
 namespace radvor {
 namespace {
@@ -179,37 +178,6 @@ TEST(Emitter, UnoccludedIsExactAndCutByTheHorizon) {
   const auto upper = square_emitter({1, -1, 0}, {1, -1, 1}, {1, 1, 1}, {1, 1, 0});
   const Receiver floor = receiver_at({0, 0, 0}, {0, 0, 1}, open);
   EXPECT_NEAR(glow(wall, floor, open, {}), glow(upper, floor, open, {}), 1e-12);
-}
-
-TEST(Sky, RoofOpeningOfCie171Case59) {
-  // Room 4 x 4 x 3 m, black, the whole roof open to a uniform sky: 100 E / E_out = 100 F of the opening.
-  Plates room;
-  room.add({0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0});
-  room.add({0, 0, 0}, {0, 0, 3}, {4, 0, 3}, {4, 0, 0});
-  room.add({0, 4, 0}, {4, 4, 0}, {4, 4, 3}, {0, 4, 3});
-  room.add({0, 0, 0}, {0, 4, 0}, {0, 4, 3}, {0, 0, 3});
-  room.add({4, 0, 0}, {4, 0, 3}, {4, 4, 3}, {4, 4, 0});
-  const auto visibility = room.visibility();
-  const Sky sky(0.02, std::pmr::get_default_resource());
-  Tracer tracer(visibility);
-  const double wall[] = {45.122604, 35.900505, 27.991624, 21.638511, 16.716315, 12.967372};
-  for (int i = 0; i < 6; ++i) {
-    const Receiver receiver = receiver_at({2, 0, 2.75 - 0.5 * i}, {0, 1, 0}, visibility);
-    // The tables go from the top: A is 0.25 below the opening.
-    EXPECT_NEAR(100 * sky.open_share(receiver, tracer, 100), wall[i], 0.01 * wall[i]) << i;
-  }
-  const double floor[] = {26.795188, 30.938711, 33.975719, 35.566592};
-  for (int i = 0; i < 4; ++i) {
-    const Receiver receiver = receiver_at({2, 0.25 + 0.5 * i, 0}, {0, 0, 1}, visibility);
-    EXPECT_NEAR(100 * sky.open_share(receiver, tracer, 100), floor[i], 0.01 * floor[i]) << i;
-  }
-}
-
-TEST(Sky, OpenPlainSeesAllOfIt) {
-  const auto open = Plates{}.visibility();
-  const Sky sky(0.02, std::pmr::get_default_resource());
-  Tracer tracer(open);
-  EXPECT_EQ(sky.open_share(receiver_at({0, 0, 0}, {0, 0.6, 0.8}, open), tracer, 100), 1);
 }
 
 }  // namespace

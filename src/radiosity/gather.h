@@ -1,0 +1,77 @@
+// What receivers see of the scene: rays over each one's hemisphere, whose hits are kept. Every bounce reads them again,
+// so that only the first one casts rays; the sky is in the same rays.
+//
+//   trace: receiver --rays--> hits (facet, point)       before the surface has its last site
+//   settle: hits --> links (shares), 1 / rays each      after
+//
+// A link is a hit's share of its triangle: one of its three corners, drawn by the hit's barycentric weights. So a link
+// is one number, and radiosity is interpolated linearly on the average.
+#pragma once
+
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "base/host.h"
+#include "radiosity/receiver.h"
+#include "radiosity/tracer.h"
+#include "scene/scene.h"
+#include "scene/welded.h"
+#include "surface/surface.h"
+
+namespace radvor {
+
+/// What one receiver sees, as shares of its cosine-weighted hemisphere; the rest are hits that shoot.
+struct Outlook {
+  double open = 0;              ///< leads out of the scene
+  double backs = 0;             ///< backs of one-sided surfaces, and meshes that do not receive
+  double inverse_distance = 0;  ///< mean of 1 / distance over all rays; 0 where they miss
+};
+
+class Gather {
+ public:
+  /// occluders: the welded triangle of each triangle given to the visibility. Keeps references to all arguments.
+  Gather(const Scene& scene, const WeldedScene& welded, const Facets& facets, std::span<const std::uint32_t> occluders,
+         Host& host);
+
+  /// A record for each of a number of receivers to come; the first one's number.
+  std::uint32_t add(std::uint32_t count);
+  std::uint32_t size() const { return static_cast<std::uint32_t>(records_.size()); }
+
+  /// Casts ray_count (a power of two, at most 2^14) rays. Different records may be traced side by side.
+  void trace(std::uint32_t record, const Receiver& receiver, std::uint32_t ray_count, std::uint64_t seed,
+             Tracer& tracer);
+
+  const Outlook& outlook(std::uint32_t record) const { return records_[record].outlook; }
+
+  /// Finds the shares that a record's hits fall on; different records may be settled side by side. The surface must
+  /// not change from then on.
+  void settle(std::uint32_t record, const Surface& surface);
+
+  /// Irradiance from all that the record's links shoot. radiosity: one a share, W m^-2.
+  Color gather(std::uint32_t record, std::span<const glm::vec3> radiosity) const;
+
+ private:
+  struct Hit {
+    std::uint32_t facet_and_side;  // twice the facet, plus one where the back was hit
+    float u, v;                    // in the facet's plane
+  };
+  struct Record {
+    explicit Record(std::pmr::memory_resource* memory) : hits(memory), links(memory) {}
+    Outlook outlook;
+    double weight = 0;  // of one hit
+    std::uint64_t seed = 0;
+    std::pmr::vector<Hit> hits;
+    std::pmr::vector<std::uint32_t> links;
+  };
+
+  const Scene& scene_;
+  const WeldedScene& welded_;
+  const Facets& facets_;
+  std::span<const std::uint32_t> occluders_;
+  Host& host_;
+  std::pmr::vector<Record> records_;
+};
+
+}  // namespace radvor

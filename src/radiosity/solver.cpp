@@ -1,0 +1,354 @@
+// Progressive refinement after Cohen et al. (1988), the paper's [5].
+#include "radiosity/solver.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include "base/hash.h"
+#include "radiosity/fate.h"
+#include "radiosity/links.h"
+#include "radiosity/shooting_tree.h"
+
+namespace radvor {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double k_pi = 3.14159265358979323846;
+
+// A patch shoots by itself, once, while it has this share of all unshot power, and so many times its even share. In a
+// room of few patches none stands out, and links make every later bounce cheaper than one such shot.
+constexpr double k_stands_out = 0.02;
+constexpr double k_times_even_share = 16;
+constexpr double k_share_left_unshot = 0.1;  // of the tolerance: may be missing when the bake has converged
+
+double sum(const Color& color) {
+  return color.r + color.g + color.b;
+}
+
+// Rays of one receiver's hemisphere: a power of two, so that they are a net.
+std::uint32_t rays_for(double tolerance) {
+  return std::clamp(std::bit_ceil(static_cast<std::uint32_t>(8 / tolerance)), 16u, 4096u);
+}
+
+}  // namespace
+
+Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& maker, Host& lender)
+    : host(lender),
+      options(wanted),
+      scene(std::move(given)),
+      direct(&host.memory),
+      indirect(&host.memory),
+      occluders_(&host.memory),
+      visibility_(nullptr, Unmake{maker, host}),
+      receivers_(&host.memory),
+      records_(&host.memory),
+      unshot_(&host.memory),
+      radiosity_(&host.memory),
+      incoming_(&host.memory),
+      stood_out_(&host.memory) {
+  const Clock::time_point begin = Clock::now();
+  welded.emplace(weld(scene, options.weld_distance, host));
+  facets.emplace(find_facets(scene, *welded, options.crease_angle, host));
+  surface.emplace(scene, *welded, *facets, choose_spacing(scene, *welded, *facets, options.spacing), host);
+
+  std::pmr::vector<std::uint32_t> corners(&host.memory);
+  for (std::uint32_t t = 0; t < welded->triangles.size(); ++t) {
+    const Triangle& triangle = welded->triangles[t];
+    if (scene.meshes[triangle.mesh].casts) {
+      occluders_.push_back(t);
+      corners.insert(corners.end(), triangle.vertices.begin(), triangle.vertices.end());
+    }
+  }
+  if ((options.disable & Disable::clear_shafts) == 0) {
+    occluder_tree_.emplace(Occluders{welded->positions, corners}, &host.memory);
+  }
+  light_.emplace(scene, *welded, *facets, occluder_tree_ ? &*occluder_tree_ : nullptr, options.tolerance, host);
+
+  const auto samples = surface->samples();
+  direct.assign(samples.size(), Color(0.0));
+  indirect.assign(samples.size(), Color(0.0));
+  visibility_.reset(maker.make(maker.user, {welded->positions, corners}, host));
+  for (const Sample& sample : samples) {
+    receivers_.push_back({sample.point, sample.point + sample.facet_normal * visibility_->lift(), sample.normal});
+  }
+  std::pmr::vector<std::uint32_t> all(samples.size(), &host.memory);
+  std::iota(all.begin(), all.end(), 0u);
+  blocks_.emplace(*surface, receivers_, all, host);
+  hemispheres_.emplace(scene, *welded, *facets, occluders_, host);
+  stats_.seconds_setup = std::chrono::duration<double>(Clock::now() - begin).count();
+  seconds = stats_.seconds_setup;
+}
+
+void Solver::step() {
+  switch (stage_) {
+    case Stage::direct:
+      shine();
+      break;
+    case Stage::hemispheres:
+      look_around();
+      break;
+    case Stage::account:
+      account();
+      break;
+    case Stage::standouts:
+      shoot_standout();
+      break;
+    case Stage::bounces:
+      bounce();
+      break;
+    case Stage::done:
+      break;
+  }
+  report_convergence();
+}
+
+// Runs work(sample, tracer) for a range of blocks in parallel and sums up what was done.
+template <class Work>
+void Solver::over_blocks(std::uint32_t begin, std::uint32_t end, Work&& work) {
+  std::pmr::vector<TransportCounters> counters(end - begin, &host.memory);
+  host.jobs.for_each(end - begin, [&](std::uint32_t index) {
+    Tracer tracer(*visibility_);
+    for (const std::uint32_t sample : blocks_->block(begin + index)) {
+      work(sample, tracer);
+    }
+    counters[index] = tracer.counters;
+  });
+  for (const TransportCounters& counter : counters) {
+    stats_.rays += counter.rays;
+    stats_.form_factors += counter.form_factors;
+    stats_.skipped_facing += counter.skipped_facing;
+    stats_.skipped_negligible += counter.skipped_negligible;
+    stats_.skipped_clear += counter.skipped_clear;
+    stats_.seconds_rays += counter.ray_seconds;
+  }
+}
+
+std::uint32_t Solver::next_blocks(std::uint32_t per_thread) const {
+  return std::min(blocks_->count(), block_ + per_thread * host.jobs.thread_count());
+}
+
+// Direct light of one source on some blocks of receivers.
+void Solver::shine() {
+  if (source_ == light_->source_count()) {
+    const bool needed = (options.disable & Disable::indirect) == 0 || sum(light_->sky_radiance()) > 0;
+    stage_ = needed ? Stage::hemispheres : Stage::account;
+    return;
+  }
+  const std::uint32_t end = next_blocks(4);
+  over_blocks(block_, end, [&](std::uint32_t sample, Tracer& tracer) {
+    direct[sample] += light_->irradiance(source_, receivers_[sample], tracer);
+  });
+  block_ = end;
+  if (block_ == blocks_->count()) {
+    block_ = 0;
+    ++source_;
+    ++stats_.shots;
+  }
+}
+
+// What some blocks of receivers see of their hemispheres.
+void Solver::look_around() {
+  if (block_ == 0) {
+    records_.resize(receivers_.size());
+    std::iota(records_.begin(), records_.end(), hemispheres_->add(static_cast<std::uint32_t>(receivers_.size())));
+  }
+  const std::uint32_t rays = rays_for(options.tolerance);
+  const Color sky = k_pi * light_->sky_radiance();
+  const std::uint32_t end = next_blocks(4);
+  over_blocks(block_, end, [&](std::uint32_t sample, Tracer& tracer) {
+    const std::uint32_t record = records_[sample];
+    hemispheres_->trace(record, receivers_[sample], rays, hash(options.seed, record), tracer);
+    hemispheres_->settle(record, *surface);
+    direct[sample] += hemispheres_->outlook(record).open * sky;
+  });
+  block_ = end;
+  if (block_ == blocks_->count()) {
+    block_ = 0;
+    stage_ = Stage::account;
+  }
+}
+
+// What the sources emitted and lost; what surfaces have to reflect.
+void Solver::account() {
+  const FateMeter meter(scene, *welded, *visibility_, occluders_, options.seed);
+  const FateMeter::Powers powers = meter.of_sources(*light_, host);
+  stats_.emitted_power = powers.emitted;
+  stats_.escaped_power = powers.escaped;
+  stats_.absorbed_back_power = powers.backs;
+  stats_.rays += powers.rays;
+  const auto shares = surface->shares();
+  unshot_.reserve(shares.size());
+  for (const Share& share : shares) {
+    unshot_.push_back(direct[share.sample]);
+  }
+  incoming_.assign(receivers_.size(), Color(0.0));
+  radiosity_.assign(shares.size(), glm::vec3(0.0f));
+  first_unshot_ = previous_unshot_ = unshot_luminance();
+  if ((options.disable & Disable::indirect) != 0 || first_unshot_ <= 0) {
+    stage_ = Stage::done;
+    return;
+  }
+  stood_out_.assign(surface->patch_count(), 0);
+  stage_ = options.max_bounces == 0 ? Stage::standouts : Stage::bounces;
+}
+
+double Solver::unshot_luminance() const {
+  double power = 0;
+  const auto shares = surface->shares();
+  for (std::size_t s = 0; s < shares.size(); ++s) {
+    power += shares[s].area * luminance(shares[s].albedo * unshot_[s]);
+  }
+  return power;
+}
+
+// Shoots the patch of largest unshot power at all receivers, while one stands out: few rays would meet it.
+void Solver::shoot_standout() {
+  const auto shares = surface->shares();
+  double total = 0, largest = 0;
+  std::uint32_t patch = k_none;
+  for (std::uint32_t p = 0; p < surface->patch_count(); ++p) {
+    double power = 0;
+    for (const std::uint32_t s : surface->patch(p)) {
+      power += shares[s].area * luminance(shares[s].albedo * unshot_[s]);
+    }
+    total += power;
+    if (power > largest && stood_out_[p] == 0) {
+      largest = power;
+      patch = p;
+    }
+  }
+  const double even_share = 1.0 / std::max(1u, surface->patch_count());
+  if (patch == k_none || largest < std::max(k_stands_out, k_times_even_share * even_share) * total) {
+    stage_ = Stage::bounces;
+    return;
+  }
+  stood_out_[patch] = 1;
+  const ShootingTree tree(*surface, std::span(&patch, 1), host);
+  std::pmr::vector<NodeLight> light(tree.nodes().size(), NodeLight{}, &host.memory);
+  for (const Element& element : tree.elements()) {
+    light[element.node].radiosity = shares[element.share].albedo * unshot_[element.share];
+    lose(element.share, light[element.node].radiosity);
+    unshot_[element.share] = Color(0.0);
+  }
+  tree.pull(light, host);
+
+  LinkAccuracy accuracy;
+  accuracy.least_rays = 8;
+  over_blocks(0, blocks_->count(), [&](std::uint32_t sample, Tracer& tracer) {
+    LinkMaker maker(tree, occluder_tree_ ? &*occluder_tree_ : nullptr, accuracy, &host.memory);
+    std::pmr::vector<Link> links(&host.memory);
+    maker.make(receivers_[sample], tree.roots(), {}, tracer, links);
+    incoming_[sample] = Color(0.0);
+    for (const Link& link : links) {
+      incoming_[sample] += sent_along(link, light);
+    }
+    indirect[sample] += incoming_[sample];
+  });
+  for (std::size_t s = 0; s < shares.size(); ++s) {
+    unshot_[s] += incoming_[shares[s].sample];
+  }
+  ++stats_.shots;
+}
+
+// What does not come back of a share's shot.
+void Solver::lose(std::uint32_t share, const Color& radiosity) {
+  const Share& shot = surface->shares()[share];
+  const Outlook& outlook = hemispheres_->outlook(records_[shot.sample]);
+  stats_.escaped_power += shot.area * sum(radiosity) * outlook.open;
+  stats_.absorbed_back_power += shot.area * sum(radiosity) * outlook.backs;
+}
+
+// Decides whether another bounce is due; takes what is unshot as what is shot.
+bool Solver::begin_bounce() {
+  const double left = unshot_luminance();
+  const auto samples = surface->samples();
+  double received = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    received += samples[i].area * luminance(direct[i] + indirect[i]);
+  }
+  // What is left goes on as a geometric series; its ratio is that of the last two bounces.
+  const double ratio = bounces_ > 0 && previous_unshot_ > 0 ? std::min(0.99, left / previous_unshot_) : 0.5;
+  previous_unshot_ = left;
+  if (left <= 0 || left / (1 - ratio) <= k_share_left_unshot * options.tolerance * received ||
+      (options.max_bounces != 0 && bounces_ >= options.max_bounces)) {
+    return false;
+  }
+  const auto shares = surface->shares();
+  for (std::uint32_t s = 0; s < shares.size(); ++s) {
+    const Color sent = shares[s].albedo * unshot_[s];
+    radiosity_[s] = glm::vec3(sent);
+    lose(s, sent);
+  }
+  return true;
+}
+
+// All shares together, on some blocks of receivers.
+void Solver::bounce() {
+  if (block_ == 0 && !begin_bounce()) {
+    stage_ = Stage::done;
+    return;
+  }
+  const std::uint32_t end = next_blocks(256);
+  over_blocks(block_, end, [&](std::uint32_t sample, Tracer&) {
+    incoming_[sample] = hemispheres_->gather(records_[sample], radiosity_);
+    indirect[sample] += incoming_[sample];
+  });
+  block_ = end;
+  if (block_ == blocks_->count()) {
+    block_ = 0;
+    ++bounces_;
+    const auto shares = surface->shares();
+    for (std::size_t s = 0; s < shares.size(); ++s) {
+      unshot_[s] = incoming_[shares[s].sample];
+    }
+    stats_.shots += surface->patch_count();
+  }
+}
+
+// Half of the way is direct light, a quarter the hemispheres; the rest is the logarithm of what is left.
+void Solver::report_convergence() {
+  double now = 0;
+  const double part = static_cast<double>(block_) / std::max(1u, blocks_->count());
+  switch (stage_) {
+    case Stage::direct:
+      now = 0.4 * (source_ + part) / std::max(1u, light_->source_count());
+      break;
+    case Stage::hemispheres:
+      now = 0.4 + 0.4 * part;
+      break;
+    case Stage::account:
+    case Stage::standouts:
+      now = 0.8;
+      break;
+    case Stage::bounces: {
+      const double goal = std::log(k_share_left_unshot * options.tolerance);
+      const double made = first_unshot_ > 0 ? std::log(std::max(previous_unshot_ / first_unshot_, 1e-300)) : goal;
+      now = 0.8 + 0.2 * std::clamp(made / goal, 0.0, 0.99);
+      break;
+    }
+    case Stage::done:
+      now = 1;
+      break;
+  }
+  converged = std::max(converged, now);
+}
+
+BakeStats Solver::stats() const {
+  BakeStats stats = stats_;
+  stats.seconds_direct = seconds_direct;
+  stats.seconds_indirect = seconds_indirect;
+  const auto shares = surface->shares();
+  for (std::size_t s = 0; s < shares.size(); ++s) {
+    const Share& share = shares[s];
+    const Color received = direct[share.sample] + indirect[share.sample];
+    stats.absorbed_power += share.area * sum((1.0 - share.albedo) * received);
+    stats.unshot_power += share.area * sum(share.albedo * (unshot_.empty() ? direct[share.sample] : unshot_[s]));
+  }
+  return stats;
+}
+
+}  // namespace radvor
