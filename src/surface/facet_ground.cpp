@@ -15,8 +15,6 @@ FacetGround::FacetGround(const FacetInput& input)
 // The lattice lies as the facet's triangulation has it: about the middle of its corners.
 FacetLattice FacetGround::find_segments(const FacetInput& input) {
   const FacetOutline outline(input.welded, input.facets, input.index, input.memory);
-  Vec2 low(0.0);
-  Vec2 high(0.0);
   for (const bool border : {true, false}) {
     for (const OutlineEdge& edge : outline.edges) {
       if ((edge.flags == delaunay::constraint::k_border) == border) {
@@ -25,15 +23,15 @@ FacetLattice FacetGround::find_segments(const FacetInput& input) {
                               frame_.to_plane(input.welded.positions[ends.b])};
         const Vec2 least = glm::min(segment.a, segment.b);
         const Vec2 most = glm::max(segment.a, segment.b);
-        low = segments_.empty() ? least : glm::min(low, least);
-        high = segments_.empty() ? most : glm::max(high, most);
+        low_ = segments_.empty() ? least : glm::min(low_, least);
+        high_ = segments_.empty() ? most : glm::max(high_, most);
         segments_.push_back(segment);
         edges_.push_back(edge.edge);
       }
     }
     border_count_ = border ? static_cast<std::uint32_t>(segments_.size()) : border_count_;
   }
-  return {input.options.lattice, input.options.patch_spacing, 0.5 * (low + high)};
+  return {input.options.lattice, input.options.patch_spacing, 0.5 * (low_ + high_)};
 }
 
 }  // namespace radvor

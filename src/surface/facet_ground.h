@@ -20,6 +20,10 @@ class FacetGround {
   const Frame& frame() const { return frame_; }
   const FacetLattice& lattice() const { return lattice_; }
 
+  /// Bounds of the facet in its plane.
+  const Vec2& low() const { return low_; }
+  const Vec2& high() const { return high_; }
+
   /// From a point inside to the nearest border or constraint; `limit` where all are at least that far.
   double clearance(const Vec2& point, double limit) const { return grid_.distance(point, limit); }
   bool encloses(const Vec2& point) const { return grid_.encloses(point, border_count_); }
@@ -35,6 +39,7 @@ class FacetGround {
   std::pmr::vector<Segment> segments_;  // borders first
   std::pmr::vector<std::uint32_t> edges_;
   std::uint32_t border_count_ = 0;
+  Vec2 low_{0.0}, high_{0.0};
   FacetLattice lattice_;
   SegmentGrid grid_;
 

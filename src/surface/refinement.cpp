@@ -297,14 +297,18 @@ void Refinement::insert_on_edges(std::uint32_t site, std::uint8_t level) {
 }
 
 void Refinement::insert_beside(std::uint32_t site, std::uint32_t facet, std::uint8_t level) {
-  const FacetLattice& lattice = ground(facet).lattice();
-  const Vec2 from = ground(facet).frame().to_plane(parts_.sites[site].position);
+  const FacetGround& on = ground(facet);
+  const FacetLattice& lattice = on.lattice();
+  const Vec2 from = on.frame().to_plane(parts_.sites[site].position);
   const std::uint32_t on_lattice = lattice_finest_ - finest_ + level;
   const double reach = k_reach * spacing(level);
-  const std::int64_t last_row = lattice.last_row(on_lattice, from.y + reach);
-  for (std::int64_t j = lattice.first_row(on_lattice, from.y - reach); j <= last_row; ++j) {
-    const std::int64_t last = lattice.last_column(on_lattice, j, from.x + reach);
-    for (std::int64_t i = lattice.first_column(on_lattice, j, from.x - reach); i <= last; ++i) {
+  const double clear = k_half_spacing * spacing(level);  // of the facet's bounds, to begin with
+  const Vec2 low = glm::max(from - reach, on.low() + clear);
+  const Vec2 high = glm::min(from + reach, on.high() - clear);
+  const std::int64_t last_row = lattice.last_row(on_lattice, high.y);
+  for (std::int64_t j = lattice.first_row(on_lattice, low.y); j <= last_row; ++j) {
+    const std::int64_t last = lattice.last_column(on_lattice, j, high.x);
+    for (std::int64_t i = lattice.first_column(on_lattice, j, low.x); i <= last; ++i) {
       if (glm::distance(lattice.point(on_lattice, {i, j}), from) <= reach) {
         lattice_site(facet, {i * step(level), j * step(level)}, level, from, 0);
       }
@@ -383,22 +387,28 @@ bool Refinement::is_marked(const Mark& square) const {
 }
 
 void Refinement::mark(std::uint32_t facet, std::uint8_t level, const Vec2& point) {
+  const FacetGround& on = ground(facet);
   const double side = spacing(level);
-  const std::int64_t x = square_of(point.x, side);
-  const std::int64_t y = square_of(point.y, side);
+  const auto bound = [&](double middle, std::int64_t squares, double low, double high) {
+    return std::clamp(square_of(middle, side) + squares, square_of(low, side), square_of(high, side));
+  };
+  const std::int64_t first_x = bound(point.x, -k_squares, on.low().x, on.high().x);
+  const std::int64_t last_x = bound(point.x, k_squares, on.low().x, on.high().x);
+  const std::int64_t first_y = bound(point.y, -k_squares, on.low().y, on.high().y);
+  const std::int64_t last_y = bound(point.y, k_squares, on.low().y, on.high().y);
   const std::size_t before = marks_.size();
-  for (std::int64_t j = y - k_squares; j <= y + k_squares; ++j) {
-    for (std::int64_t i = x - k_squares; i <= x + k_squares; ++i) {
-      const Mark square{facet, level, i, j};
+  for (std::int64_t y = first_y; y <= last_y; ++y) {
+    for (std::int64_t x = first_x; x <= last_x; ++x) {
+      const Mark square{facet, level, x, y};
       const auto next = static_cast<std::uint32_t>(marks_.size());
-      if (mark_table_.find_or_insert(hash_square(facet, level, i, j), next,
+      if (mark_table_.find_or_insert(hash_square(facet, level, x, y), next,
                                      [&](std::uint32_t k) { return marks_[k] == square; }) == next) {
         marks_.push_back(square);
       }
     }
   }
   if (marks_.size() > before) {
-    settle(facet, level, Vec2(x - k_squares, y - k_squares) * side, Vec2(x + k_squares + 1, y + k_squares + 1) * side);
+    settle(facet, level, Vec2(first_x, first_y) * side, Vec2(last_x + 1, last_y + 1) * side);
   }
 }
 
@@ -407,10 +417,12 @@ void Refinement::settle(std::uint32_t facet, std::uint8_t level, const Vec2& low
   const FacetGround& on = ground(facet);
   const auto before = static_cast<std::uint8_t>(level - 1);
   const std::uint32_t on_lattice = lattice_finest_ - finest_ + before;
-  const std::int64_t last_row = on.lattice().last_row(on_lattice, high.y);
-  for (std::int64_t j = on.lattice().first_row(on_lattice, low.y); j <= last_row; ++j) {
-    const std::int64_t last = on.lattice().last_column(on_lattice, j, high.x);
-    for (std::int64_t i = on.lattice().first_column(on_lattice, j, low.x); i <= last; ++i) {
+  const Vec2 least = glm::max(low, on.low());
+  const Vec2 most = glm::min(high, on.high());
+  const std::int64_t last_row = on.lattice().last_row(on_lattice, most.y);
+  for (std::int64_t j = on.lattice().first_row(on_lattice, least.y); j <= last_row; ++j) {
+    const std::int64_t last = on.lattice().last_column(on_lattice, j, most.x);
+    for (std::int64_t i = on.lattice().first_column(on_lattice, j, least.x); i <= last; ++i) {
       const std::uint32_t site = find_lattice_site(facet, {i * step(before), j * step(before)});
       if (site != k_none) {
         need(site, level);
@@ -435,8 +447,8 @@ void Refinement::settle(std::uint32_t facet, std::uint8_t level, const Vec2& low
     settle_border(parts_.borders.at_vertex(parts_.welded.edges[edge].b));
     const EdgeLine line = parts_.borders.line(edge);
     const double along = line.from_middle(middle);
-    const std::int64_t most = line.steps(spacing(before));
-    const double at_most = static_cast<double>(most);
+    const std::int64_t outward = line.steps(spacing(before));
+    const double at_most = static_cast<double>(outward);
     const auto first = static_cast<std::int64_t>(std::ceil(std::max((along - reach) / spacing(before), -at_most)));
     const auto end = static_cast<std::int64_t>(std::floor(std::min((along + reach) / spacing(before), at_most)));
     for (std::int64_t k = first; k <= end; ++k) {
