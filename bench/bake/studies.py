@@ -156,6 +156,46 @@ def first_light(scenes, options):
     return result
 
 
+def lattices(scenes, options):
+    """Uniform hexagonal and quadrilateral meshes of as many sites; nothing else differs."""
+    result = {}
+    for scene in scenes:
+        rows = []
+        for sites in (1_000, 4_000, 16_000):
+            for lattice, shape in (("hex", 1), ("quad", math.sqrt(math.sqrt(3) / 2))):
+                spacing = curves.spacing_for(scene, sites) * shape
+                run = runs.bake(scene, ["--lattice", lattice, "--patch-spacing", 2 * spacing, "--min-spacing", spacing,
+                                        "--element-levels", 1, "--disable", "refinement", "--tolerance",
+                                        options.tolerance, "--threads", 1], options.max_seconds)
+                if run is None or not run["finished"]:
+                    break
+                rows.append({"lattice": lattice, "sites": run["sites"], "cpu_seconds": run["cpu_seconds"],
+                             "error": run["error"]})
+                curves.say(scene, lattice, run)
+        result[scene.name] = rows
+    return result
+
+
+def tracer(scenes, options):
+    """Is the path tracer right? Its mean error against the references, beside what their noise allows: the standard error
+    of a mean over the points, the tracer's own noise not counted."""
+    result = {}
+    for scene in scenes:
+        for direct in (False, True):
+            reference = scene.reference(direct)
+            if not reference:
+                continue
+            last = runs.trace_curve(scene, options.tracer_seconds, direct)[-1]
+            irradiance, noise = load_reference(reference)
+            allowed = math.sqrt(float((noise**2).sum())) / len(noise) / irradiance.mean()
+            name = scene.name + (" direct" if direct else "")
+            result[name] = {**last, "bias_allowed": allowed}
+            say(f"{name:<20} {last['samples']:>6} samples  bias {100 * last['error']['bias']:+.3f} % (noise of the "
+                f"reference's mean {100 * allowed:.3f} %)  rms {100 * last['error']['rms']:.2f} %  "
+                f"rms99 {100 * last['error']['rms99']:.2f} %")
+    return result
+
+
 def city(_, options):
     scene = runs.Scene(f"city:{options.triangles}", options.work)
     scene.reference = lambda direct=False: None
@@ -170,4 +210,4 @@ def city(_, options):
 
 
 k_studies = {"skips": skips, "threads": threads, "scaling": scaling, "memory": memory, "embree": embree,
-             "first-light": first_light, "city": city}
+             "first-light": first_light, "city": city, "lattices": lattices, "tracer": tracer}
