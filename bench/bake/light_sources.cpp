@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <stdexcept>
@@ -42,25 +43,29 @@ glm::vec3 cone_direction(const glm::vec3& axis, float cosine, float u, float v) 
 LightSources::LightSources(const TracedScene& scene, const std::vector<radvor_light_desc>& lights, float scene_size)
     : scene_(scene), far_(2 * scene_size) {
   emitter_of_triangle_.assign(scene.triangle_count(), TracedScene::k_nothing);
-  float sum = 0;
+  glm::vec3 low = scene.corner(0, 0), high = low;
+  std::vector<ChoosableEmitter> choosable;
   for (std::uint32_t triangle = 0; triangle < scene.triangle_count(); ++triangle) {
     Emitter emitter{triangle, scene.corner(triangle, 0), {}, {}, {}, scene.emission(triangle), 0};
     emitter.edge_1 = scene.corner(triangle, 1) - emitter.corner;
     emitter.edge_2 = scene.corner(triangle, 2) - emitter.corner;
     const glm::vec3 normal = glm::cross(emitter.edge_1, emitter.edge_2);
     const float doubled = glm::length(normal);
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      low = glm::min(low, scene.corner(triangle, i));
+      high = glm::max(high, scene.corner(triangle, i));
+    }
     if (flux_of(emitter.emission) > 0 && doubled > 0) {
       emitter.normal = normal / doubled;
-      emitter.density = flux_of(emitter.emission);
+      emitter.area = 0.5f * doubled;
       emitter_of_triangle_[triangle] = static_cast<std::uint32_t>(emitters_.size());
       emitters_.push_back(emitter);
-      sum += emitter.density * 0.5f * doubled;
-      emitter_sums_.push_back(sum);
+      choosable.push_back({emitter.corner + (emitter.edge_1 + emitter.edge_2) / 3.0f, emitter.normal,
+                           flux_of(emitter.emission) * emitter.area});
     }
   }
-  for (std::size_t i = 0; i < emitters_.size(); ++i) {
-    emitters_[i].density /= sum;
-    emitter_sums_[i] /= sum;
+  if (!emitters_.empty()) {
+    choice_.emplace(std::move(choosable), low, high);
   }
   float punctual_sum = 0;
   for (const radvor_light_desc& light : lights) {
@@ -80,27 +85,23 @@ LightSources::LightSources(const TracedScene& scene, const std::vector<radvor_li
   }
 }
 
-float LightSources::density_towards(const glm::vec3& from, const glm::vec3& to, const glm::vec3& normal,
-                                    float density) const {
+float LightSources::density_towards(const glm::vec3& from, const glm::vec3& to, const Emitter& emitter,
+                                    float probability) const {
   const glm::vec3 way = to - from;
   const float square = glm::dot(way, way);
-  const float cosine = -glm::dot(way, normal) / std::sqrt(square);
-  return cosine > 0 ? density * square / cosine : 0;
+  const float cosine = -glm::dot(way, emitter.normal) / std::sqrt(square);
+  return cosine > 0 ? probability / emitter.area * square / cosine : 0;
 }
 
 LightSample LightSources::sample_emitters(const glm::vec3& position, const glm::vec3& normal, float u, float v) const {
-  const auto found = std::upper_bound(emitter_sums_.begin(), emitter_sums_.end() - 1, u);
-  const auto chosen = static_cast<std::size_t>(found - emitter_sums_.begin());
-  const Emitter& emitter = emitters_[chosen];
-  const float before = chosen > 0 ? emitter_sums_[chosen - 1] : 0;
-  const float rest = std::clamp((u - before) / (emitter_sums_[chosen] - before), 0.0f, 1.0f);
-  const float root = std::sqrt(rest);
+  const LightChoice::Choice choice = choice_->choose(position, u);
+  const Emitter& emitter = emitters_[choice.emitter];
+  const float root = std::sqrt(choice.rest);
   const glm::vec3 on =
       emitter.corner + root * (1 - v) * emitter.edge_1 + root * v * emitter.edge_2 + scene_.lift() * emitter.normal;
   LightSample sample{{position, on - position}, glm::vec3(0)};
-  const float distance = glm::length(sample.segment.direction);
-  const float cosine = glm::dot(sample.segment.direction, normal) / distance;
-  const float density = density_towards(position, on, emitter.normal, emitter.density);
+  const float cosine = glm::dot(sample.segment.direction, normal) / glm::length(sample.segment.direction);
+  const float density = density_towards(position, on, emitter, choice.probability);
   if (cosine > 0 && density > 0) {
     sample.irradiance = power_heuristic(density, cosine / k_pi) * cosine / density * emitter.emission;
   }
@@ -112,9 +113,8 @@ float LightSources::weight_of_hit(const glm::vec3& from, const glm::vec3& normal
   if (emitter == TracedScene::k_nothing) {
     return 0;
   }
-  const glm::vec3 way = glm::normalize(hit.position - from);
-  const float cosine = glm::dot(way, normal);
-  const float other = density_towards(from, hit.position, emitters_[emitter].normal, emitters_[emitter].density);
+  const float cosine = glm::dot(glm::normalize(hit.position - from), normal);
+  const float other = density_towards(from, hit.position, emitters_[emitter], choice_->probability(from, emitter));
   return cosine > 0 ? power_heuristic(cosine / k_pi, other) : 0;
 }
 

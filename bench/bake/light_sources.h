@@ -1,13 +1,15 @@
-// Lights as the path tracer samples them: emitting triangles by area, in proportion to their flux; points and suns one
-// by one at the receivers and by flux at later vertices; the sky by the rays that leave the scene.
+// Lights as the path tracer samples them: emitting triangles by area, chosen by what they could give; points and suns
+// one by one at the receivers and by flux at later vertices; the sky by the rays that leave the scene.
 #pragma once
 
 #include <radvor.h>
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
+#include "light_choice.h"
 #include "traced_scene.h"
 
 namespace bench {
@@ -48,18 +50,19 @@ class LightSources {
   struct Emitter {
     std::uint32_t triangle;
     glm::vec3 corner, edge_1, edge_2, normal, emission;
-    float density;  ///< of a point: probability of the choice over the area
+    float area;
   };
   struct Punctual {
     radvor_light_desc light;
     float probability;
   };
 
-  float density_towards(const glm::vec3& from, const glm::vec3& to, const glm::vec3& normal, float density) const;
+  /// Of directions: that of a point on the emitter, as its distance and tilt change it.
+  float density_towards(const glm::vec3& from, const glm::vec3& to, const Emitter& emitter, float probability) const;
 
   const TracedScene& scene_;
   std::vector<Emitter> emitters_;
-  std::vector<float> emitter_sums_;                 ///< running sums of the probabilities
+  mutable std::optional<LightChoice> choice_;       ///< fills its cells as it is asked
   std::vector<std::uint32_t> emitter_of_triangle_;  ///< k_nothing where it does not emit
   std::vector<Punctual> punctual_;
   glm::vec3 sky_{0.0f};

@@ -1,0 +1,130 @@
+#!/usr/bin/env python3
+"""The tables of docs/performance.md from what bake_bench.py measured: tables.py build/bench/bake.json"""
+import json
+import sys
+
+
+def percent(value, digits=1):
+    return f"{100 * value:.{digits}f} %"
+
+
+def table(heading, rows):
+    print("| " + " | ".join(heading) + " |")
+    print("|" + "---|" * len(heading))
+    for row in rows:
+        print("| " + " | ".join(str(cell) for cell in row) + " |")
+    print()
+
+
+def seconds(value):
+    return "–" if value is None else f"{value:.3g} s"
+
+
+def times(value):
+    return "–" if value is None else f"{value:.2g}"
+
+
+def curves(data):
+    rows = []
+    for scene, summary in data.get("summary", {}).items():
+        for row in summary:
+            rows.append([scene, f"{row['figure']} {percent(row['error'], 0)}",
+                         *(seconds(row.get(method)) for method in ("radvor", "uniform", "tracer", "cycles")),
+                         times(row.get("times_tracer")), times(row.get("times_tracer_at_equal_receivers"))])
+    table(["scene", "error", "radvor", "uniform, all evaluated", "tracer", "Cycles", "tracer over radvor",
+           "at as many receivers"], rows)
+    rows = []
+    for scene, methods in data.get("curves", {}).items():
+        for method in ("radvor", "uniform", "cycles"):
+            for run in methods.get(method, []):
+                error = run.get("error")
+                if not error:
+                    continue
+                what = {"radvor": f"radvor {run.get('tolerance')}", "uniform": "uniform",
+                        "cycles": f"Cycles, {run.get('samples')} samples"}[method]
+                what += "" if run.get("finished", True) else " (time spent)"
+                rows.append([scene, what, percent(error["rms"]), percent(error["rms99"]), percent(error["local"]),
+                             f"{100 * error['bias']:+.2f} %", percent(error["p95"]),
+                             f"{run['sites']:,}" if "sites" in run else f"{run['vertices']:,}",
+                             f"{run['rays'] / 1e6:.2f} M" if "rays" in run else "–", seconds(run["cpu_seconds"])])
+    table(["scene", "what", "rms", "rms99", "local", "bias", "p95", "sites", "rays", "processor time"], rows)
+
+
+def skips(data):
+    rows = []
+    for scene, study in data.get("skips", {}).items():
+        base = study.get("none")
+        for skip, run in study.items():
+            rows.append([scene, "all on" if skip == "none" else f"{skip} off", seconds(run["cpu_seconds"]),
+                         f"{run['cpu_seconds'] / base['cpu_seconds']:.2f}", f"{run['rays'] / 1e6:.2f} M",
+                         percent(run["error"]["rms"], 2), "–" if skip == "none" else percent(run["moved"], 3)])
+    table(["scene", "skips", "processor time", "over all on", "rays", "rms", "light moved by"], rows)
+
+
+def threads(data):
+    table(["scene", "1 thread", "2 threads", "faster", "processor time of 2 over 1", "load"],
+          [[scene, *(seconds(v) for v in row["seconds"].values()), f"{row['speed']:.2f}",
+            f"{row['cpu_seconds_of_two_over_one']:.2f}", f"{row['load']:.1f}"]
+           for scene, row in data.get("threads", {}).items()])
+
+
+def scaling(data):
+    rows = []
+    for what, series in data.get("scaling", {}).items():
+        for row in series:
+            rows.append([what, f"{row['count']:,}", seconds(row["cpu_seconds"]), f"{row['sites']:,}",
+                         f"{row['exponent']:.2f}" if "exponent" in row else "–"])
+    table(["what grows", "to", "processor time", "sites", "exponent"], rows)
+
+
+def memory(data):
+    table(["scene", "peak", "sites", "bytes a site", "bytes an input triangle"],
+          [[scene, f"{row['peak_bytes'] / 1e6:.0f} MB", f"{row['sites']:,}", f"{row['bytes_per_site']:,.0f}",
+            f"{row['bytes_per_input_triangle']:,.0f}"] for scene, row in data.get("memory", {}).items()])
+
+
+def embree(data):
+    table(["scene", "all in", "rays", "bare loop", "all in over bare", "bare rays a second", "building Embree's tree"],
+          [[scene, seconds(row["cpu_seconds"]), f"{row['rays'] / 1e6:.2f} M", seconds(row["bare_loop_cpu_seconds"]),
+            f"{1 / row['share_of_rays']:.2f}" if row["share_of_rays"] > 0 else "–",
+            f"{row.get('bare_rays_per_second', 0) / 1e6:.1f} M", percent(row["share_of_build"])]
+           for scene, row in data.get("embree", {}).items()])
+
+
+def first_light(data):
+    rows = []
+    for scene, lines in data.get("first-light", {}).items():
+        lit = next((line for line in lines if line["error"]["rms"] <= 0.3), None)
+        late = max((line["seconds"] for line in lines[1:]), default=0)
+        rows.append([scene, seconds(lines[0]["seconds"]), seconds(lit and lit["total_seconds"]), seconds(late),
+                     len(lines) - 1])
+    table(["scene", "geometry", "direct light within 30 %", "longest slice", "slices"], rows)
+
+
+def lattices(data):
+    rows = []
+    for scene, series in data.get("lattices", {}).items():
+        for row in series:
+            rows.append([scene, {"hex": "hexagons", "quad": "squares"}[row["lattice"]], f"{row['sites']:,}",
+                         percent(row["error"]["rms"], 2), percent(row["error"]["rms99"], 2),
+                         percent(row["error"]["local"]), seconds(row["cpu_seconds"])])
+    table(["scene", "cells", "sites", "rms", "rms99", "local", "processor time"], rows)
+
+
+def tracer(data):
+    table(["scene", "samples", "bias", "noise of the reference's mean", "rms beyond the reference's noise", "rms99"],
+          [[scene, f"{row['samples']:,}", f"{100 * row['error']['bias']:+.3f} %", percent(row["bias_allowed"], 3),
+            percent(row["error"]["rms"], 2), percent(row["error"]["rms99"], 2)]
+           for scene, row in data.get("tracer", {}).items()])
+
+
+def main():
+    data = json.loads(open(sys.argv[1]).read())
+    print(json.dumps(data.get("machine")))
+    for part in (curves, tracer, skips, threads, scaling, memory, embree, first_light, lattices):
+        print(f"\n### {part.__name__}\n")
+        part(data)
+    print(json.dumps({key: value for key, value in data.get("city", {}).items() if key != "options"}, indent=1))
+
+
+main()
