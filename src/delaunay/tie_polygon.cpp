@@ -11,7 +11,26 @@ namespace radvor::delaunay {
 
 namespace {
 constexpr std::uint32_t k_most_exact = 40;  // corners; cubic time above
+
+bool lies_near_circle(const Triangulation& d, TriangleId t, Vec2 point, double tolerance) {
+  const auto corners = d.triangle(t);
+  Vec2 from[3];
+  double lift[3];
+  for (std::size_t k = 0; k < 3; ++k) {
+    from[k] = d.position(corners[k]) - point;
+    lift[k] = from[k].x * from[k].x + from[k].y * from[k].y;
+  }
+  double determinant = 0;
+  double magnitude = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec2& b = from[(k + 1) % 3];
+    const Vec2& c = from[(k + 2) % 3];
+    determinant += lift[k] * (b.x * c.y - c.x * b.y);
+    magnitude += lift[k] * (std::fabs(b.x * c.y) + std::fabs(c.x * b.y));
+  }
+  return std::fabs(determinant) <= tolerance * magnitude;
 }
+}  // namespace
 
 TiePolygon::TiePolygon(std::pmr::memory_resource* memory)
     : triangles_(memory),
@@ -26,8 +45,32 @@ TiePolygon::TiePolygon(std::pmr::memory_resource* memory)
       before_(memory),
       after_(memory) {}
 
-// Like the cavity of an insertion: a tree of triangles whose border comes out in order.
 std::uint32_t TiePolygon::collect(const Triangulation& d, TriangleId seed) {
+  return collect_where(d, seed, [&](HalfEdge h) { return d.lies_on_circle(h); });
+}
+
+std::uint32_t TiePolygon::collect_near(const Triangulation& d, TriangleId seed, double tolerance,
+                                       std::span<const std::uint8_t> taken) {
+  const auto seed_corners = d.triangle(seed);
+  corners_.assign(seed_corners.begin(), seed_corners.end());
+  return collect_where(d, seed, [&](HalfEdge h) {
+    if (!d.is_ordinary(h) || taken[triangle_of(h)] != 0) {
+      return false;
+    }
+    const VertexId apex = d.apex(h);
+    const bool belongs = tolerance > 0 ? lies_near_circle(d, seed, d.position(apex), tolerance) : d.lies_on_circle(h);
+    // Near a circle a vertex may be met from two sides: once is enough.
+    if (!belongs || std::find(corners_.begin(), corners_.end(), apex) != corners_.end()) {
+      return false;
+    }
+    corners_.push_back(apex);
+    return true;
+  });
+}
+
+// Like the cavity of an insertion: a tree of triangles whose border comes out in order.
+template <class Belongs>
+std::uint32_t TiePolygon::collect_where(const Triangulation& d, TriangleId seed, Belongs&& belongs) {
   triangles_.assign(1, seed);
   outer_.clear();
   stack_.clear();
@@ -37,7 +80,7 @@ std::uint32_t TiePolygon::collect(const Triangulation& d, TriangleId seed) {
   while (!stack_.empty()) {
     const HalfEdge h = stack_.back();
     stack_.pop_back();
-    if (d.lies_on_circle(h)) {
+    if (belongs(h)) {
       triangles_.push_back(triangle_of(h));
       stack_.push_back(d.twin(previous(h)));
       stack_.push_back(d.twin(next(h)));
@@ -65,23 +108,66 @@ double TiePolygon::difference(std::uint32_t i, std::uint32_t j) const {
 }
 
 bool TiePolygon::resolve(const Triangulation& d) {
-  const auto size = static_cast<std::uint32_t>(corners_.size());
+  decide();
+  return is_new(d);
+}
+
+bool TiePolygon::resolve(const Triangulation& d, std::span<const double> values) {
+  values_.assign(values.begin(), values.end());
+  decide();
+  if (!is_new(d)) {
+    return false;
+  }
+  double now = 0;  // every diagonal is a side of two triangles
+  const auto corner_of_vertex = [&](VertexId v) {
+    return static_cast<std::uint32_t>(std::find(corners_.begin(), corners_.end(), v) - corners_.begin());
+  };
+  const auto is_diagonal = [&](std::uint32_t i, std::uint32_t j) {
+    const auto size = static_cast<std::uint32_t>(corners_.size());
+    return (i + 1) % size != j && (j + 1) % size != i;
+  };
+  for (const TriangleId t : triangles_) {
+    const auto vertices = d.triangle(t);
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t i = corner_of_vertex(vertices[k]), j = corner_of_vertex(vertices[(k + 1) % 3]);
+      now += is_diagonal(i, j) ? 0.5 * difference(i, j) : 0;
+    }
+  }
+  double then = 0;
+  bool sound = true;
+  std::size_t left = ears_.size();
+  for_each_decided([&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    then += --left > 0 ? difference(a, c) : 0;  // the last ear leaves no diagonal
+    sound = sound && cross(positions_[b] - positions_[a], positions_[c] - positions_[a]) > 0;
+  });
+  return sound && then < now;
+}
+
+void TiePolygon::decide() {
   const auto unset = [](double value) { return std::isnan(value); };
   const auto same = [&](double value) { return value == values_[0]; };
   if (std::any_of(values_.begin(), values_.end(), unset) || std::all_of(values_.begin(), values_.end(), same)) {
     fan();
-  } else if (size <= k_most_exact) {
+  } else if (corners_.size() <= k_most_exact) {
     resolve_exactly();
   } else {
     resolve_greedily();
   }
-  // As it is already? Every ear but the last leaves a diagonal.
+}
+
+void TiePolygon::start_cutting() {
+  const auto size = static_cast<std::uint32_t>(corners_.size());
   before_.resize(size);
   after_.resize(size);
   for (std::uint32_t i = 0; i < size; ++i) {
     before_[i] = (i + size - 1) % size;
     after_[i] = (i + 1) % size;
   }
+}
+
+// Every ear but the last leaves a diagonal.
+bool TiePolygon::is_new(const Triangulation& d) {
+  start_cutting();
   bool changed = false;
   for (std::size_t k = 0; k + 1 < ears_.size(); ++k) {
     const std::uint32_t a = before_[ears_[k]], c = after_[ears_[k]];

@@ -1,6 +1,6 @@
-// What shoots by itself, as trees: the leaves are elements (shares: a cell with its radiosity), inner nodes stand for all the
-// elements under them, one root for each patch. After Tampieri and Lischinski, The Constant Radiosity Assumption
-// Syndrome (1991), the paper's [17].
+// What shoots by itself, as trees: the leaves are elements (shares: a cell with its radiosity), inner nodes stand for
+// all the elements under them, one root for each patch. After Tampieri and Lischinski, The Constant Radiosity
+// Assumption Syndrome (1991), the paper's [17].
 #pragma once
 
 #include <array>

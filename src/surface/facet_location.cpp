@@ -58,7 +58,17 @@ std::size_t LocatedFacet::best_triangle(const Vec2& point) const {
 }
 
 FacetPoint LocatedFacet::locate(const Vec2& point) const {
-  const ShareTriangle& found = triangles[mesh ? mesh->locate(point) : best_triangle(point)];
+  std::size_t best = mesh ? mesh->locate(point) : best_triangle(point);
+  if (mesh) {
+    const auto first = static_cast<std::uint32_t>(best);
+    double deepest = depth_inside(corners(triangles[first]), point);
+    for (std::uint32_t k = mesh->next_in_polygon(first); k != first; k = mesh->next_in_polygon(k)) {
+      const double depth = depth_inside(corners(triangles[k]), point);
+      best = depth > deepest ? k : best;
+      deepest = std::max(depth, deepest);
+    }
+  }
+  const ShareTriangle& found = triangles[best];
   return {found, clamped_weights(corners(found), point)};
 }
 

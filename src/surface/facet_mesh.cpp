@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "delaunay/tie_polygon.h"
 #include "surface/cut_triangles.h"
 #include "surface/facet_triangulator.h"
 
@@ -27,9 +28,11 @@ bool FacetMesh::needed(const FacetInput& input) {
 }
 
 void FacetMesh::number_shares(std::uint32_t first) {
-  for (ShareTriangle& triangle : triangles_) {
-    for (std::uint32_t& share : triangle) {
-      share += first;
+  for (auto* triangles : {&triangles_, &plain_triangles_}) {
+    for (ShareTriangle& triangle : *triangles) {
+      for (std::uint32_t& share : triangle) {
+        share += first;
+      }
     }
   }
   for (std::uint32_t& share : first_share_) {
@@ -68,6 +71,51 @@ std::uint32_t FacetMesh::locate(const Vec2& point) const {
     }
   }
   return nearest_triangle(point);
+}
+
+Ties FacetMesh::align_ties(std::span<const double> value_of, double tolerance, std::pmr::memory_resource* memory) {
+  Ties ties;
+  if (plain_triangles_.empty()) {
+    plain_triangles_ = triangles_;
+    next_in_polygon_.resize(triangles_.size());
+  } else {
+    triangles_ = plain_triangles_;
+  }
+  for (std::uint32_t k = 0; k < next_in_polygon_.size(); ++k) {
+    next_in_polygon_[k] = k;
+  }
+  delaunay::TiePolygon polygon(memory);
+  std::pmr::vector<std::uint8_t> seen(index_of_triangle_.size(), std::uint8_t{0}, memory);
+  std::pmr::vector<std::uint32_t> shares(memory);
+  std::pmr::vector<double> values(memory);
+  for (delaunay::TriangleId t = 0; t < index_of_triangle_.size(); ++t) {
+    if (index_of_triangle_[t] == k_none || seen[t] != 0 || polygon.collect_near(*delaunay_, t, tolerance, seen) == 3) {
+      continue;
+    }
+    ++ties.count;
+    for (const delaunay::TriangleId part : polygon.triangles()) {
+      seen[part] = 1;
+    }
+    shares.clear();
+    values.clear();
+    for (std::size_t k = 0; k < polygon.corners().size(); ++k) {
+      const delaunay::HalfEdge h = polygon.side(*delaunay_, k);
+      shares.push_back(plain_triangles_[index_of_triangle_[delaunay::triangle_of(h)]][delaunay::corner_of(h)]);
+      values.push_back(value_of[shares.back()]);
+    }
+    if (polygon.resolve(*delaunay_, values)) {
+      ++ties.realigned;
+      const auto parts = polygon.triangles();
+      std::size_t part = 0;
+      polygon.for_each_decided([&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        const std::uint32_t slot = index_of_triangle_[parts[part]];
+        part = (part + 1) % parts.size();
+        triangles_[slot] = {shares[a], shares[b], shares[c]};
+        next_in_polygon_[slot] = index_of_triangle_[parts[part]];
+      });
+    }
+  }
+  return ties;
 }
 
 std::uint32_t FacetMesh::nearest_triangle(const Vec2& point) const {

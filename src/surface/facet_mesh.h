@@ -52,6 +52,16 @@ class FacetMesh {
   const delaunay::Triangulation& triangulation() const { return *delaunay_; }
   const FacetLattice& lattice() const { return *lattice_; }
 
+  /// Cocircular polygons, and those nearly so, are triangulated anew so that diagonals join shares of similar value;
+  /// the triangulation stays as it is. value_of: per share, NaN where it has none. tolerance: relative, see
+  /// delaunay/tie_polygon.h.
+  Ties align_ties(std::span<const double> value_of, double tolerance, std::pmr::memory_resource* memory);
+
+  /// Another triangle of the same polygon of ties, and so on round to the first; itself where there is none.
+  std::uint32_t next_in_polygon(std::uint32_t triangle) const {
+    return next_in_polygon_.empty() ? triangle : next_in_polygon_[triangle];
+  }
+
   /// The polygon of a share of a vertex, counter-clockwise in the facet's plane; in the buffer.
   std::span<const Vec2> cell(std::uint32_t vertex, std::uint32_t share, delaunay::CellBuffer& buffer) const;
 
@@ -66,6 +76,8 @@ class FacetMesh {
   std::optional<delaunay::Triangulation> delaunay_;
   std::optional<FacetLattice> lattice_;
   std::pmr::vector<ShareTriangle> triangles_;
+  std::pmr::vector<ShareTriangle> plain_triangles_;    // before ties were aligned; empty until then
+  std::pmr::vector<std::uint32_t> next_in_polygon_;    // likewise
   std::pmr::vector<std::uint32_t> index_of_triangle_;  // per triangle of the triangulation: into triangles_, or k_none
   std::pmr::vector<std::uint32_t> first_share_;        // per vertex and one past the last
   std::pmr::vector<std::uint32_t> sites_;              // per vertex

@@ -70,6 +70,34 @@ std::pmr::vector<SampleOrigin> Surface::refine(std::span<const std::uint32_t> si
   return remake_surface(*state_, state_->refinement->take_changes());
 }
 
+Ties Surface::align_ties(std::span<const double> value_of, double tolerance) {
+  const FloatingPointGuard guard(Denormals::keep);
+  if (value_of.size() != state_->samples.size()) {
+    throw Error(ErrorCode::invalid_argument, "%zu values for %zu samples", value_of.size(), state_->samples.size());
+  }
+  constexpr double k_hexagonal_rounding = 0x1p-10;
+  if (state_->options.lattice == Lattice::hexagonal) {
+    tolerance = std::max(tolerance, k_hexagonal_rounding);
+  }
+  std::pmr::vector<double> values(memory_);
+  values.reserve(state_->shares.size());
+  for (const Share& share : state_->shares) {
+    values.push_back(value_of[share.sample]);
+  }
+  std::pmr::vector<Ties> of_mesh(state_->meshes.size(), memory_);
+  state_->host.jobs.for_each(static_cast<std::uint32_t>(of_mesh.size()), [&](std::uint32_t k) {
+    if (state_->meshes[k] && !state_->meshes[k]->degenerate()) {
+      of_mesh[k] = state_->meshes[k]->align_ties(values, tolerance, memory_);
+    }
+  });
+  Ties ties;
+  for (const Ties& more : of_mesh) {
+    ties.count += more.count;
+    ties.realigned += more.realigned;
+  }
+  return ties;
+}
+
 std::uint32_t Surface::level_of(std::uint32_t site) const {
   return state_->levels[site];
 }

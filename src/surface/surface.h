@@ -74,6 +74,12 @@ struct SampleOrigin {
 /// A facet's triangles. Corners name the front's share (its site, sample and albedo follow; the back's is other_side).
 using ShareTriangle = std::array<std::uint32_t, 3>;
 
+/// Polygons of four sites or more on one empty circle, or nearly so.
+struct Ties {
+  std::uint32_t count = 0;
+  std::uint32_t realigned = 0;  ///< their diagonals are not what they were without values
+};
+
 /// Where a point of a facet lies among its triangles.
 struct FacetPoint {
   ShareTriangle shares;
@@ -117,6 +123,13 @@ class Surface {
   std::uint32_t level_of(std::uint32_t site) const;
   /// From min_spacing; the spacing there is the first elements' halved so many times.
   std::uint32_t max_level() const;
+
+  /// Ties follow the light, for output: the diagonals of every polygon whose sites lie on one circle join those of most
+  /// similar value. What is nearly a tie counts: where an in-circle determinant is at most `tolerance` of the sum of
+  /// its terms' magnitudes, 0 to 1; on the hexagonal lattice at most 2^-10 always, as its steps are rounded to 12 bits.
+  /// value_of: per sample, finite or NaN (its polygons stay as they are); fronts count. triangles() changes and
+  /// nothing else; refine() undoes it on the facets that it changes.
+  Ties align_ties(std::span<const double> value_of, double tolerance);
 
   /// The share's cell, counter-clockwise about its own side's normal, star-shaped about its site; replaces polygon.
   /// Areas of a facet's cells sum to its area to 1e-12; each point belongs to the nearest site that it sees.
