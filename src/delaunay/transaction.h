@@ -32,6 +32,9 @@ void Triangulation::transact(Edit&& edit) {
       free_again(reused_.back());
     }
     vertex_count_ = count;
+    if (count == 1) {
+      mesh_.set_out(only_vertex(), k_none);  // had no triangle to find it in
+    }
     last_ = last;
     flat_ = flat;
     marked_ = marked;

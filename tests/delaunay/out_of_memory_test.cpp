@@ -145,5 +145,17 @@ TEST(out_of_memory, remove_constrain_and_the_rest) {
   fail_everywhere(steered_grid, [](Triangulation& d) { d.realign(); });
 }
 
+TEST(out_of_memory, the_second_vertex_beside_values) {  // found by fuzzing
+  fail_everywhere(
+      [](Triangulation& d) {
+        d.insert({0, 0});
+        const double value = 1;
+        d.set_values({&value, 1}, 0);
+      },
+      [](Triangulation& d) {
+        d.insert({4, 0});
+      });
+}
+
 }  // namespace
 }  // namespace radvor::delaunay
