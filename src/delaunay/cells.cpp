@@ -1,21 +1,23 @@
 // Cells by clipping convex polygons. All sites that a point sees at its nearest distance are among the neighbours of
 // its site, so a cell is an intersection of half-planes: those of the bisectors, and those of the constraint edges that
 // cut what the bisectors leave; such an edge is a full chord of it, since its visible ends are sites and outside. The
-// edges are found by a flood from the star through all triangles that the polygon meets. Corners are computed from the
+// edges are found by a flood from the star through all triangles that the polygon meets. Continuous constraints do not
+// count: a view without them stands for the triangulation. Corners are computed from the
 // vertices that define them, in an order of their own, so that neighbouring cells agree to the bit.
 #include "delaunay/cells.h"
 
 #include <algorithm>
-#include <array>
 #include <glm/common.hpp>
 #include <utility>
+
+#include "delaunay/circumcentre.h"
 
 namespace radvor::delaunay {
 
 class CellBuilder {
  public:
   CellBuilder(const Triangulation& triangulation, VertexId site, CellBuffer& buffer)
-      : d_(triangulation), site_(site), at_(triangulation.position(site)), out_(buffer) {
+      : d_(triangulation), site_(site), at_(triangulation.position(site)), out_(buffer), view_(buffer.view_) {
     out_.sectors_.clear();
     out_.points_.clear();
   }
@@ -25,6 +27,7 @@ class CellBuilder {
     if (any == k_none) {
       return;
     }
+    view_.look(d_, site_);
     // The sectors' first edges; begin with the one that leads to the lowest id.
     HalfEdge start = k_none;
     bool all_inside = true;
@@ -77,6 +80,13 @@ class CellBuilder {
   using Side = CellBuffer::Side;
   using Kind = Side::Kind;
 
+  // A sector in the view: the triangles left of the half-edges from first on, out of the site, up to last.
+  struct Wedge {
+    HalfEdge first, last;
+    std::uint32_t triangle_count;
+    bool closed;
+  };
+
   Vec2 position(VertexId v) const { return d_.position(v); }
 
   bool blocks(HalfEdge h) const {
@@ -87,33 +97,34 @@ class CellBuilder {
 
   // ---- One sector
 
+  // first: in the triangulation; what follows is about the same wedge in the view.
   void add_sector(HalfEdge first, bool closed) {
     Sector sector{first, 0, closed, 0, 0, 0, {}};
     sector.begin = sector.end = static_cast<std::uint32_t>(out_.points_.size());
-    bool delaunay = true;  // no constraint inside of the sector ends here
     HalfEdge last = first;
     do {
       ++sector.triangle_count;
       last = d_.rotate_ccw(last);
-      delaunay = delaunay && (d_.constraint_flags(last) == 0 || (!closed && blocks(last)));
     } while (closed ? last != first : !blocks(last));
-    wedge_ = {first, last};
-    const VertexId from = d_.target(first);
-    const VertexId to = d_.target(last);
-    const bool reflex =
-        !closed && sector.triangle_count > 1 && (from == to || cross(position(from) - at_, position(to) - at_) < 0);
-    if (delaunay && !reflex) {
-      start_with_chain(sector, last);
-      flood(first, sector.triangle_count);
+    Wedge wedge{closed ? view_.out() : view_.find_out(d_.target(first)), k_none, 0, closed};
+    wedge.last = wedge.first;
+    do {
+      ++wedge.triangle_count;
+      wedge.last = view_.rotate_ccw(wedge.last);
+    } while (closed ? wedge.last != wedge.first : !view_.blocks(wedge.last));
+    const Vec2 from = position(d_.target(first)) - at_;
+    const Vec2 to = position(d_.target(last)) - at_;
+    const bool reflex = !closed && wedge.triangle_count > 1 && (from == to || cross(from, to) < 0);
+    if (!reflex) {
+      start_with_chain(wedge);
+      flood(wedge.first, wedge.triangle_count);
       add_corners(sector);
     } else {
-      if (!closed) {
-        add_point(at_, sector);
-      }
-      HalfEdge h = first;
-      for (std::uint32_t i = 0; i < sector.triangle_count; ++i, h = d_.rotate_ccw(h)) {
+      add_point(at_, sector);
+      HalfEdge h = wedge.first;
+      for (std::uint32_t i = 0; i < wedge.triangle_count; ++i, h = view_.rotate_ccw(h)) {
         start_with_kite(h);
-        clip_by_neighbours(h, sector, i);
+        clip_by_neighbours(h, wedge, i);
         flood(h, 1);
         add_arc(sector);
       }
@@ -122,26 +133,26 @@ class CellBuilder {
   }
 
   // The circumcentres of the star are the corners; an end of the chain beyond an edge of the wedge is cut off.
-  void start_with_chain(const Sector& sector, HalfEdge last) {
+  void start_with_chain(const Wedge& wedge) {
     auto& sides = out_.sides_;
     sides.clear();
-    HalfEdge h = sector.first;
-    for (std::uint32_t i = 0; i < sector.triangle_count; ++i, h = d_.rotate_ccw(h)) {
-      sides.push_back({Kind::bisector, d_.target(h), k_none, circumcentre(d_.target(h), d_.apex(h))});
+    HalfEdge h = wedge.first;
+    for (std::uint32_t i = 0; i < wedge.triangle_count; ++i, h = view_.rotate_ccw(h)) {
+      sides.push_back({Kind::bisector, view_.target(h), k_none, corner(view_.target(h), view_.apex(h))});
     }
-    if (sector.closed) {
+    if (wedge.closed) {
       return;
     }
-    sides.push_back({Kind::bisector, d_.target(last), k_none, {}});
-    close_wedge({Kind::line, site_, d_.target(sector.first), {}}, {Kind::line, d_.target(last), site_, at_});
+    sides.push_back({Kind::bisector, view_.target(wedge.last), k_none, {}});
+    close_wedge({Kind::line, site_, view_.target(wedge.first), {}}, {Kind::line, view_.target(wedge.last), site_, at_});
   }
 
   // What one triangle's cone holds of its corner's cell, as far as the triangle knows.
   void start_with_kite(HalfEdge h) {
-    const VertexId a = d_.target(h);
-    const VertexId b = d_.apex(h);
+    const VertexId a = view_.target(h);
+    const VertexId b = view_.apex(h);
     out_.sides_.clear();
-    out_.sides_.push_back({Kind::bisector, a, k_none, circumcentre(a, b)});
+    out_.sides_.push_back({Kind::bisector, a, k_none, corner(a, b)});
     out_.sides_.push_back({Kind::bisector, b, k_none, {}});
     close_wedge({Kind::line, site_, a, {}}, {Kind::line, b, site_, at_});
   }
@@ -169,151 +180,59 @@ class CellBuilder {
   }
 
   // Neighbours within a right angle of the cone of h, on its own side of the blocking edges.
-  void clip_by_neighbours(HalfEdge h, const Sector& sector, std::uint32_t index) {
-    const Vec2 low = position(d_.target(h)) - at_;
-    const Vec2 high = position(d_.apex(h)) - at_;
-    HalfEdge spoke = d_.rotate_ccw(d_.rotate_ccw(h));
-    std::uint32_t most = sector.closed ? sector.triangle_count - 2 : sector.triangle_count - index - 1;
-    for (std::uint32_t i = 0; i < most && glm::dot(position(d_.target(spoke)) - at_, high) > 0; ++i) {
-      clip({Kind::bisector, d_.target(spoke), k_none, {}});
-      spoke = d_.rotate_ccw(spoke);
+  void clip_by_neighbours(HalfEdge h, const Wedge& wedge, std::uint32_t index) {
+    const Vec2 low = position(view_.target(h)) - at_;
+    const Vec2 high = position(view_.apex(h)) - at_;
+    HalfEdge spoke = view_.rotate_ccw(view_.rotate_ccw(h));
+    std::uint32_t most = wedge.closed ? wedge.triangle_count - 2 : wedge.triangle_count - index - 1;
+    for (std::uint32_t i = 0; i < most && glm::dot(position(view_.target(spoke)) - at_, high) > 0; ++i) {
+      clip({Kind::bisector, view_.target(spoke), k_none, {}});
+      spoke = view_.rotate_ccw(spoke);
     }
-    spoke = d_.rotate_cw(h);
-    most = sector.closed ? sector.triangle_count - 2 : index;
-    for (std::uint32_t i = 0; i < most && glm::dot(position(d_.target(spoke)) - at_, low) > 0; ++i) {
-      clip({Kind::bisector, d_.target(spoke), k_none, {}});
-      spoke = d_.rotate_cw(spoke);
+    spoke = view_.rotate_cw(h);
+    most = wedge.closed ? wedge.triangle_count - 2 : index;
+    for (std::uint32_t i = 0; i < most && glm::dot(position(view_.target(spoke)) - at_, low) > 0; ++i) {
+      clip({Kind::bisector, view_.target(spoke), k_none, {}});
+      spoke = view_.rotate_cw(spoke);
     }
   }
 
   // ---- Beyond the star
 
   void flood(HalfEdge first, std::uint32_t triangle_count) {
-    if (!d_.may_have_continuous_constraints()) {
-      clip_by_edges(first, triangle_count);
-      return;
-    }
-    // An edge is a chord only of what is left by all bisectors, and the last of them are seen once edges have clipped.
-    clip_by_sites_beyond_seams(first, triangle_count);
-    clip_by_edges(first, triangle_count);
-    clip_by_sites_beyond_seams(first, triangle_count);
-  }
-
-  void clip_by_edges(HalfEdge first, std::uint32_t triangle_count) {
     auto& stack = out_.stack_;
     stack.clear();
     out_.visited_.clear();
     HalfEdge spoke = first;
-    for (std::uint32_t i = 0; i < triangle_count; ++i, spoke = d_.rotate_ccw(spoke)) {
-      stack.push_back(d_.twin(next(spoke)));
+    for (std::uint32_t i = 0; i < triangle_count; ++i, spoke = view_.rotate_ccw(spoke)) {
+      stack.push_back(view_.twin(next(spoke)));
     }
     while (!stack.empty()) {
       const HalfEdge h = stack.back();
       stack.pop_back();
-      if (!cuts(position(d_.origin(h)), position(d_.target(h)))) {
+      if (!cuts(position(view_.origin(h)), position(view_.target(h)))) {
         continue;
       }
-      if (blocks(h)) {
+      if (view_.blocks(h)) {
         // Seen from the site the edge runs the other way.
-        const Side side{Kind::line, d_.target(h), d_.origin(h), {}};
+        const Side side{Kind::line, view_.target(h), view_.origin(h), {}};
         if (value(side, at_) > 0) {
           clip(side);
         }
         continue;
       }
       const TriangleId t = triangle_of(h);
-      if (std::find(out_.visited_.begin(), out_.visited_.end(), t) != out_.visited_.end()) {
+      if (!out_.visited_.add(t)) {
         continue;
       }
-      out_.visited_.push_back(t);
-      stack.push_back(d_.twin(next(h)));
-      stack.push_back(d_.twin(previous(h)));
-    }
-  }
-
-  // Continuous constraints keep sites apart that see each other, so that the neighbours of a site are not all that
-  // bound its cell. The others are inside of a circle around a corner through the site; whether they see it is asked.
-  void clip_by_sites_beyond_seams(HalfEdge first, std::uint32_t triangle_count) {
-    auto& stack = out_.stack_;
-    stack.clear();
-    out_.visited_.clear();
-    out_.candidates_.clear();
-    out_.blocking_.assign(wedge_.begin(), wedge_.end());
-    HalfEdge spoke = first;
-    for (std::uint32_t i = 0; i < triangle_count; ++i, spoke = d_.rotate_ccw(spoke)) {
-      stack.push_back(d_.twin(next(spoke)));
-    }
-    while (!stack.empty()) {
-      const HalfEdge h = stack.back();
-      stack.pop_back();
-      const TriangleId t = triangle_of(h);
-      if (!meets_a_circle(position(d_.origin(h)), position(d_.target(h)))) {
-        continue;
-      }
-      if (blocks(h)) {
-        out_.blocking_.push_back(h);
-        continue;
-      }
-      if (std::find(out_.visited_.begin(), out_.visited_.end(), t) != out_.visited_.end()) {
-        continue;
-      }
-      out_.visited_.push_back(t);
-      if (d_.apex(h) != site_) {
-        out_.candidates_.push_back(d_.apex(h));
-      }
-      stack.push_back(d_.twin(next(h)));
-      stack.push_back(d_.twin(previous(h)));
-    }
-    // A bisector counts where the site is seen. On the way from the site to a corner the first one met is a side of the
-    // cell for certain; beyond it one may be met whose site is hidden from the rest.
-    for (VertexId first_met = k_none;;) {
-      // Seen from a little inside: a corner may lie on the edge that hides a site from the cell.
-      Vec2 middle(0.0);
-      for (const Side& corner : out_.sides_) {
-        middle += corner.end / static_cast<double>(out_.sides_.size());
-      }
-      for (const Side& corner : out_.sides_) {
-        double share = 1;
-        first_met = k_none;
-        for (const VertexId candidate : out_.candidates_) {
-          const Vec2 to = position(candidate) - at_;
-          const double at = 0.5 * glm::dot(to, to) / glm::dot(to, corner.end - at_);
-          if (at > 0 && at < share && !is_side(candidate) &&
-              sees(glm::mix(at_ + at * (corner.end - at_), middle, 1e-7), candidate) &&
-              sees(glm::mix(at_ + at * (corner.end - at_), middle, 1e-7), site_)) {
-            share = at;
-            first_met = candidate;
-          }
-        }
-        if (first_met != k_none) {
-          break;
-        }
-      }
-      if (first_met == k_none) {
-        break;
-      }
-      clip({Kind::bisector, first_met, k_none, {}});
+      stack.push_back(view_.twin(next(h)));
+      stack.push_back(view_.twin(previous(h)));
     }
   }
 
   bool is_side(VertexId site) const {
     return std::any_of(out_.sides_.begin(), out_.sides_.end(),
                        [&](const Side& side) { return side.kind == Kind::bisector && side.a == site; });
-  }
-
-  bool sees(Vec2 from, VertexId site) const {
-    const Vec2 to = position(site);
-    for (const HalfEdge h : out_.blocking_) {
-      if (!blocks(h)) {
-        continue;  // the ends of a closed sector
-      }
-      const Vec2 a = position(d_.origin(h)), b = position(d_.target(h));
-      if (d_.origin(h) != site && d_.target(h) != site && cross(b - a, from - a) * cross(b - a, to - a) < 0 &&
-          cross(to - from, a - from) * cross(to - from, b - from) < 0) {
-        return false;
-      }
-    }
-    return true;
   }
 
   // Without regard to constraints: any site inside of a circle around a corner through the site is nearer to it. They
@@ -337,11 +256,9 @@ class CellBuilder {
       const HalfEdge h = stack.back();
       stack.pop_back();
       const TriangleId t = triangle_of(h);
-      if (d_.is_ghost(t) || !meets_a_circle(position(d_.origin(h)), position(d_.target(h))) ||
-          std::find(out_.visited_.begin(), out_.visited_.end(), t) != out_.visited_.end()) {
+      if (d_.is_ghost(t) || !meets_a_circle(position(d_.origin(h)), position(d_.target(h))) || !out_.visited_.add(t)) {
         continue;
       }
-      out_.visited_.push_back(t);
       if (d_.apex(h) != site_) {
         clip({Kind::bisector, d_.apex(h), k_none, {}});
       }
@@ -439,19 +356,16 @@ class CellBuilder {
 
   // ---- Corners
 
-  Vec2 circumcentre(VertexId a, VertexId b) const {
+  // Of the cells of the site, a and b.
+  Vec2 corner(VertexId a, VertexId b) const {
     VertexId v[3] = {site_, a, b};
     std::sort(v, v + 3);
-    const Vec2 origin = position(v[0]);
-    const Vec2 p = position(v[1]) - origin;
-    const Vec2 q = position(v[2]) - origin;
-    const double pp = glm::dot(p, p), qq = glm::dot(q, q);
-    return origin + Vec2(q.y * pp - p.y * qq, p.x * qq - q.x * pp) / (2 * cross(p, q));
+    return circumcentre(position(v[0]), position(v[1]), position(v[2]));
   }
 
   Vec2 meet(const Side& one, const Side& other) const {
     if (one.kind == Kind::bisector && other.kind == Kind::bisector) {
-      return circumcentre(one.a, other.a);
+      return corner(one.a, other.a);
     }
     const Side& bisector = one.kind == Kind::bisector ? one : other;
     const Side& line = one.kind == Kind::bisector ? other : one;
@@ -526,8 +440,8 @@ class CellBuilder {
   VertexId site_;
   Vec2 at_;
   std::span<const Vec2> window_;
-  std::array<HalfEdge, 2> wedge_ = {};  // the ends of the sector
   CellBuffer& out_;
+  SeamlessView& view_;
 };
 
 CellBuffer::CellBuffer(std::pmr::memory_resource* memory)
@@ -537,8 +451,7 @@ CellBuffer::CellBuffer(std::pmr::memory_resource* memory)
       clipped_(memory),
       stack_(memory),
       visited_(memory),
-      blocking_(memory),
-      candidates_(memory) {}
+      view_(memory) {}
 
 double CellBuffer::area() const {
   double sum = 0;

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "delaunay/id_map.h"
+#include "delaunay/seamless_view.h"
 #include "delaunay/triangulation.h"
 
 namespace radvor::delaunay {
@@ -52,9 +54,8 @@ class CellBuffer {
   std::pmr::vector<Vec2> points_;
   std::pmr::vector<Side> sides_, clipped_;
   std::pmr::vector<HalfEdge> stack_;
-  std::pmr::vector<TriangleId> visited_;
-  std::pmr::vector<HalfEdge> blocking_;
-  std::pmr::vector<VertexId> candidates_;
+  IdMap visited_;
+  SeamlessView view_;
 };
 
 /// The cell of a site: the points inside of the domain whose nearest visible site it is; blocking constraint edges

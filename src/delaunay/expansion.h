@@ -60,6 +60,14 @@ struct Expansion {
       part[size++] = component;
     }
   }
+  /// Its value, rounded a few times.
+  double estimate() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      sum += part[i];
+    }
+    return sum;
+  }
   /// The largest component has the sign of the whole.
   int sign() const { return size == 0 ? 0 : (part[size - 1] > 0) - (part[size - 1] < 0); }
 };

@@ -57,6 +57,10 @@ int orientation(Vec2 a, Vec2 b, Vec2 c) {
   return cross(Offset(a, c), Offset(b, c)).sign();
 }
 
+double twice_area(Vec2 a, Vec2 b, Vec2 c) {
+  return cross(Offset(a, c), Offset(b, c)).estimate();
+}
+
 int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   const Offset ad(a, d), bd(b, d), cd(c, d);
   return expansion::sum(expansion::sum(lifted(ad, cross(bd, cd)), lifted(bd, cross(cd, ad))), lifted(cd, cross(ad, bd)))

@@ -44,6 +44,8 @@ namespace exact {
 /// The same signs without filter. For tests, and for where filters fail.
 int orientation(Vec2 a, Vec2 b, Vec2 c);
 int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d);
+/// The determinant of orientation, correct but for a few roundings.
+double twice_area(Vec2 a, Vec2 b, Vec2 c);
 }  // namespace exact
 
 namespace detail {

@@ -205,6 +205,7 @@ class Triangulation {
 
   const Mesh& mesh() const { return mesh_; }
   std::span<const Vec2> positions() const { return positions_; }
+  const Lattice& lattice() const { return lattice_; }  ///< that all positions are on
   std::pmr::memory_resource* memory() const { return memory_; }
   bool is_ordinary(HalfEdge h) const { return is_flippable(h); }  ///< no constraint, real triangles on both sides
   bool lies_on_circle(HalfEdge h) const;  ///< both real, no constraint, and the four corners on one circle
