@@ -100,8 +100,7 @@ inline ::testing::AssertionResult has_no_t_vertices(const Triangles& mesh, doubl
     vertices.push_back(key(mesh.positions[index]));
   }
   std::ranges::sort(vertices);
-  const auto doubles = std::ranges::unique(vertices);
-  vertices.erase(doubles.begin(), doubles.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   for (const auto& [edge, runs] : edges_of(mesh)) {
     const glm::dvec3 a = wide(edge.first);
     const glm::dvec3 b = wide(edge.second);

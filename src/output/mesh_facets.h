@@ -15,9 +15,10 @@ struct FacetRange {
 
 /// Facets are numbered by their meshes first, so a mesh's are neighbours.
 inline FacetRange facets_of_mesh(const Facets& facets, std::uint32_t mesh) {
-  const auto range = std::ranges::equal_range(facets.facets, mesh, {}, &Facet::mesh);
-  const auto first = static_cast<std::uint32_t>(range.begin() - facets.facets.begin());
-  return {first, first + static_cast<std::uint32_t>(range.size())};
+  const auto first = std::ranges::lower_bound(facets.facets, mesh, {}, &Facet::mesh);
+  const auto last = std::ranges::upper_bound(first, facets.facets.end(), mesh, {}, &Facet::mesh);
+  return {static_cast<std::uint32_t>(first - facets.facets.begin()),
+          static_cast<std::uint32_t>(last - facets.facets.begin())};
 }
 
 }  // namespace radvor

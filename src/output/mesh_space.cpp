@@ -10,12 +10,11 @@ MeshSpace::MeshSpace(const Scene& scene, const WeldedScene& welded, std::uint32_
                      std::pmr::memory_resource* memory)
     : welded_of_(welded.vertex_of[mesh]), own_(welded_of_.size(), memory), transform_(scene.meshes[mesh].transform) {
   std::iota(own_.begin(), own_.end(), 0u);
-  const auto welded_of = [this](std::uint32_t vertex) { return welded_of_[vertex]; };
   std::ranges::sort(own_, [&](std::uint32_t a, std::uint32_t b) {
     return welded_of_[a] != welded_of_[b] ? welded_of_[a] < welded_of_[b] : a < b;
   });
-  const auto doubles = std::ranges::unique(own_, {}, welded_of);
-  own_.erase(doubles.begin(), doubles.end());
+  const auto welded_together = [this](std::uint32_t a, std::uint32_t b) { return welded_of_[a] == welded_of_[b]; };
+  own_.erase(std::unique(own_.begin(), own_.end(), welded_together), own_.end());
 
   const Transform& t = transform_;
   const Vec3 x{t[0], t[4], t[8]};  // images of the axes

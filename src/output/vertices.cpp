@@ -36,17 +36,18 @@ class CornerLight {
       }
     }
     std::ranges::sort(at_vertices_);
-    const auto doubles = std::ranges::unique(at_vertices_, {}, [](const AtVertex& at) {
-      return std::pair(at.vertex, at.sample);  // shares of one sample show the same light
-    });
-    at_vertices_.erase(doubles.begin(), doubles.end());
+    const auto same_light = [](const AtVertex& one, const AtVertex& other) {
+      return one.vertex == other.vertex && one.sample == other.sample;  // shares of one sample show the same light
+    };
+    at_vertices_.erase(std::unique(at_vertices_.begin(), at_vertices_.end(), same_light), at_vertices_.end());
   }
 
   Color at(const Triangle& triangle, std::size_t corner) const {
     const std::uint32_t vertex = triangle.vertices[corner];
-    const auto shares = std::ranges::equal_range(at_vertices_, vertex, {}, &AtVertex::vertex);
-    if (shares.size() == 1) {
-      return of_share(shares.front().share);
+    const auto first = std::ranges::lower_bound(at_vertices_, vertex, {}, &AtVertex::vertex);
+    const auto last = std::ranges::upper_bound(first, at_vertices_.end(), vertex, {}, &AtVertex::vertex);
+    if (last - first == 1) {
+      return of_share(first->share);
     }
     // A little inside the triangle, so that the light is this triangle's; nothing is lost at that distance.
     constexpr double k_inside = 0x1p-30;

@@ -10,6 +10,7 @@
 
 namespace radvor {
 
+/// In the plane of a facet.
 struct Segment {
   Vec2 a, b;
 };

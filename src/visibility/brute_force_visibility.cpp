@@ -86,9 +86,9 @@ void BruteForceVisibility::blocked_from(const Vec3& from, std::span<const Vec3> 
   std::transform(to.begin(), to.end(), blocked, [&](const Vec3& end) { return is_blocked(from, end); });
 }
 
-void BruteForceVisibility::blocked(std::span<const Segment> segments, std::uint8_t* blocked) const {
+void BruteForceVisibility::blocked(std::span<const Sightline> segments, std::uint8_t* blocked) const {
   std::transform(segments.begin(), segments.end(), blocked,
-                 [&](const Segment& segment) { return is_blocked(segment.from, segment.to); });
+                 [&](const Sightline& segment) { return is_blocked(segment.from, segment.to); });
 }
 
 FirstHit BruteForceVisibility::first_hit(const Vec3& from, const Vec3& direction) const {

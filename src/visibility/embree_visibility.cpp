@@ -179,7 +179,7 @@ void EmbreeVisibility::blocked_from(const Vec3& from, std::span<const Vec3> to, 
       blocked);
 }
 
-void EmbreeVisibility::blocked(std::span<const Segment> segments, std::uint8_t* blocked) const {
+void EmbreeVisibility::blocked(std::span<const Sightline> segments, std::uint8_t* blocked) const {
   trace_all(
       segments.size(),
       [&](std::size_t i) {

@@ -11,7 +11,8 @@
 
 namespace radvor {
 
-struct Segment {
+/// An open segment that light might travel.
+struct Sightline {
   Vec3 from;
   Vec3 to;
 };
@@ -34,7 +35,7 @@ class Visibility {
   virtual void blocked_from(const Vec3& from, std::span<const Vec3> to, std::uint8_t* blocked) const = 0;
 
   /// The same for unrelated segments, best with neighbours close together.
-  virtual void blocked(std::span<const Segment> segments, std::uint8_t* blocked) const = 0;
+  virtual void blocked(std::span<const Sightline> segments, std::uint8_t* blocked) const = 0;
 
   /// The nearest triangle along from + t * direction, t > 0; direction of any length > 0.
   virtual FirstHit first_hit(const Vec3& from, const Vec3& direction) const = 0;

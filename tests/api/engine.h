@@ -113,8 +113,11 @@ class Engine {
     if (++acquired_ >= refuse_) {
       return nullptr;
     }
-    const std::size_t whole = (bytes + alignment - 1) / alignment * alignment;
-    void* memory = std::aligned_alloc(std::max(alignment, sizeof(void*)), std::max(whole, sizeof(void*)));
+    const std::size_t unit = std::max(alignment, sizeof(void*));  // what aligned_alloc takes, and multiples of it
+    void* memory = std::aligned_alloc(unit, (bytes + unit - 1) / unit * unit);
+    if (!memory) {
+      return nullptr;
+    }
     std::memset(memory, 0xcd, bytes);  // nobody may count on zeros
     const std::lock_guard<std::mutex> lock(mutex_);
     blocks_[memory] = {bytes, alignment};

@@ -252,15 +252,15 @@ TEST(split, walks_through_slivers_beside_a_bent_chain) {
     Triangulation d(std::pmr::new_delete_resource());
     const Vec2 from(unit(random), unit(random)), to(unit(random), unit(random));
     std::vector<VertexId> chain;
-    const int pieces = 1 + round % 7;
-    for (int i = 0; i <= pieces; ++i) {
-      chain.push_back(d.insert(from + (to - from) * (static_cast<double>(i) / pieces)));
+    const std::size_t pieces = 1 + static_cast<std::size_t>(round) % 7;
+    for (std::size_t i = 0; i <= pieces; ++i) {
+      chain.push_back(d.insert(from + (to - from) * (static_cast<double>(i) / static_cast<double>(pieces))));
     }
     for (int i = 0; i < round % 20; ++i) {
       d.insert({unit(random), unit(random)});
     }
     std::vector<std::pair<VertexId, VertexId>> edges;
-    for (int i = 0; i < pieces; ++i) {
+    for (std::size_t i = 0; i < pieces; ++i) {
       d.constrain(chain[i], chain[i + 1], constraint::k_border);
       if (d.constraint_flags(chain[i], chain[i + 1]) != 0) {
         edges.emplace_back(chain[i], chain[i + 1]);
@@ -282,7 +282,7 @@ TEST(split, walks_through_slivers_beside_a_bent_chain) {
       const auto old = canonical_triangles(d);
       const bool may = may_split(d, a, b, p);
       VertexId made = k_none;
-      const ErrorCode code = code_of([&] { made = d.split(a, b, p); });
+      const ErrorCode code = code_of([&, a = a, b = b] { made = d.split(a, b, p); });
       ASSERT_EQ(code == ErrorCode{}, may) << "round " << round << " split " << i;
       ASSERT_NO_THROW(d.validate()) << "round " << round << " split " << i;
       if (code != ErrorCode{}) {

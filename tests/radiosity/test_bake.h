@@ -16,7 +16,7 @@ class TestHost {
  public:
   explicit TestHost(std::uint32_t threads)
       : host{HostMemory(nullptr, nullptr, nullptr), Log(nullptr, nullptr),
-             Jobs(threads, lent(threads), nullptr, &host.memory)} {}
+             Jobs(threads, lent(threads), nullptr, std::addressof(host.memory))} {}
 
   Host host;
 

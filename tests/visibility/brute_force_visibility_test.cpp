@@ -16,7 +16,7 @@ bool is_blocked(const Visibility& visibility, const Vec3& from, const Vec3& to) 
   std::uint8_t blocked = 7;
   visibility.blocked_from(from, {&to, 1}, &blocked);
   std::uint8_t again = 7;
-  const Segment segment{from, to};
+  const Sightline segment{from, to};
   visibility.blocked({&segment, 1}, &again);
   EXPECT_EQ(blocked, again);
   return blocked != 0;

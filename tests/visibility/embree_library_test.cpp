@@ -103,9 +103,9 @@ TEST(Embree4, AnswersAsTheOracleDoesInEveryWidth) {
   const TriangleSoup soup = random_soup(2, 40, 0.7);
   const BruteForceVisibility oracle(soup.occluders(), &host.memory);
   Random random(12);
-  std::vector<Segment> segments;
+  std::vector<Sightline> segments;
   while (segments.size() < 403) {
-    const Segment segment{random.in_cube(), random.in_cube()};
+    const Sightline segment{random.in_cube(), random.in_cube()};
     if (is_clear(soup, segment, 1e-5)) {
       segments.push_back(segment);
     }
@@ -122,7 +122,7 @@ TEST(Embree4, AnswersAsTheOracleDoesInEveryWidth) {
     embree.blocked(segments, blocked.data());
     EXPECT_EQ(blocked, expected) << lanes << " lanes";
     EXPECT_GE(packets_of(lanes) - before, 403 / lanes) << "the native width was not used";
-    for (const Segment& segment : segments) {
+    for (const Sightline& segment : segments) {
       const FirstHit hit = embree.first_hit(segment.from, segment.to - segment.from);
       const FirstHit oracles = oracle.first_hit(segment.from, segment.to - segment.from);
       EXPECT_EQ(hit.triangle, oracles.triangle);

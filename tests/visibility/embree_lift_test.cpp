@@ -41,9 +41,9 @@ struct Placement {
 // Segments from lifted points of the plane, (u, v) in the unit square, outwards: a third anywhere, a third grazing the
 // plane, a third grazing it along its first direction; from tiny to beyond the scene. Both ways, as either end is
 // lifted.
-std::vector<Segment> lifted_segments(const Plane& plane, Random& random, const Visibility& visibility,
-                                     const Placement& placement, const std::vector<Vec2>& points) {
-  std::vector<Segment> segments;
+std::vector<Sightline> lifted_segments(const Plane& plane, Random& random, const Visibility& visibility,
+                                       const Placement& placement, const std::vector<Vec2>& points) {
+  std::vector<Sightline> segments;
   for (const Vec2& point : points) {
     for (const double side : {-1.0, 1.0}) {
       const Vec3 normal = side * plane.normal;
@@ -64,7 +64,7 @@ std::vector<Segment> lifted_segments(const Plane& plane, Random& random, const V
   return segments;
 }
 
-std::vector<std::uint8_t> answers(const Visibility& visibility, const std::vector<Segment>& segments) {
+std::vector<std::uint8_t> answers(const Visibility& visibility, const std::vector<Sightline>& segments) {
   std::vector<std::uint8_t> blocked(segments.size());
   visibility.blocked(segments, blocked.data());
   for (std::size_t i = 0; i < segments.size(); i += 7) {  // alone and packed by origin too

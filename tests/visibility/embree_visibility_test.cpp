@@ -26,18 +26,18 @@ class Embree : public testing::Test {
   Host host_ = make_host();
 };
 
-std::vector<std::uint8_t> answers(const Visibility& visibility, const std::vector<Segment>& segments) {
+std::vector<std::uint8_t> answers(const Visibility& visibility, const std::vector<Sightline>& segments) {
   std::vector<std::uint8_t> blocked(segments.size());
   visibility.blocked(segments, blocked.data());
   return blocked;
 }
 
-std::vector<Segment> clear_segments(const TriangleSoup& soup, std::uint64_t seed, std::size_t count) {
+std::vector<Sightline> clear_segments(const TriangleSoup& soup, std::uint64_t seed, std::size_t count) {
   Random random(seed);
-  std::vector<Segment> segments;
+  std::vector<Sightline> segments;
   std::size_t left_out = 0;
   while (segments.size() < count) {
-    const Segment segment{1.2 * random.in_cube(), 1.2 * random.in_cube()};
+    const Sightline segment{1.2 * random.in_cube(), 1.2 * random.in_cube()};
     if (is_clear(soup, segment, 1e-5)) {
       segments.push_back(segment);
     } else {
@@ -63,7 +63,7 @@ TEST_F(Embree, AgreesWithTheOracle) {
     const BruteForceVisibility oracle(soup.occluders(), &host_.memory);
     const auto segments = clear_segments(soup, 17 * triangles, 3000);
     EXPECT_EQ(answers(embree, segments), answers(oracle, segments)) << triangles << " triangles";
-    for (const Segment& segment : segments) {
+    for (const Sightline& segment : segments) {
       const Vec3 direction = 0.01 * (segment.to - segment.from);
       const FirstHit expected = oracle.first_hit(segment.from, direction);
       const FirstHit hit = embree.first_hit(segment.from, direction);
@@ -87,7 +87,7 @@ TEST_F(Embree, AgreesAtAnyScaleAndPlace) {
     for (const Vec3& offset : {Vec3(0), scale * Vec3(1e6, -1e6, 3e5)}) {
       const TriangleSoup there = moved(soup, scale, offset);
       auto segments_there = segments;
-      for (Segment& segment : segments_there) {
+      for (Sightline& segment : segments_there) {
         segment = {scale * segment.from + offset, scale * segment.to + offset};
       }
       const EmbreeVisibility embree(library_, there.occluders(), host_);
@@ -111,7 +111,7 @@ TEST_F(Embree, AnswersAnyNumberOfSegments) {
   }
   const Vec3 from(0.013, -0.021, 0.034);
   std::vector<Vec3> to;
-  for (const Segment& segment : clear_segments(soup, 10, 400)) {
+  for (const Sightline& segment : clear_segments(soup, 10, 400)) {
     if (is_clear(soup, {from, segment.to}, 1e-5)) {
       to.push_back(segment.to);
     }
@@ -128,7 +128,7 @@ TEST_F(Embree, AnswersAnyNumberOfSegments) {
 
 TEST_F(Embree, NothingBlocksInAnEmptyScene) {
   const EmbreeVisibility embree(library_, Occluders{}, host_);
-  EXPECT_EQ(answers(embree, std::vector<Segment>(20, {Vec3(0), Vec3(1, 2, 3)})), std::vector<std::uint8_t>(20, 0));
+  EXPECT_EQ(answers(embree, std::vector<Sightline>(20, {Vec3(0), Vec3(1, 2, 3)})), std::vector<std::uint8_t>(20, 0));
   EXPECT_EQ(embree.first_hit(Vec3(0), Vec3(1)).triangle, FirstHit::k_miss);
   EXPECT_EQ(embree.lift(), 0);
 }
@@ -141,8 +141,8 @@ TEST_F(Embree, TrianglesWithoutAreaBlockNothing) {
   soup.add(Vec3(0.1, 0.2, 0.3), Vec3(0.2, 0.4, 0.6), Vec3(0.4, 0.8, 1.2));
   const EmbreeVisibility embree(library_, soup.occluders(), host_);
   Random random(3);
-  std::vector<Segment> segments(1000);
-  for (Segment& segment : segments) {
+  std::vector<Sightline> segments(1000);
+  for (Sightline& segment : segments) {
     segment = {2.0 * random.in_cube(), 2.0 * random.in_cube()};
   }
   EXPECT_EQ(answers(embree, segments), std::vector<std::uint8_t>(segments.size(), 0));
@@ -155,7 +155,7 @@ TEST_F(Embree, TrianglesWithoutAreaBlockNothing) {
 TEST_F(Embree, SegmentsWithoutLengthAreFree) {
   const TriangleSoup soup = sphere(8, 9);
   const EmbreeVisibility embree(library_, soup.occluders(), host_);
-  EXPECT_EQ(answers(embree, std::vector<Segment>(17, {Vec3(0.1), Vec3(0.1)})), std::vector<std::uint8_t>(17, 0));
+  EXPECT_EQ(answers(embree, std::vector<Sightline>(17, {Vec3(0.1), Vec3(0.1)})), std::vector<std::uint8_t>(17, 0));
 }
 
 TEST_F(Embree, PositionsThatNoTriangleNamesChangeNothing) {
@@ -191,8 +191,8 @@ TEST_F(Embree, NothingSlipsThroughButAtCorners) {
     std::vector<std::uint8_t> blocked(to.size());
     embree.blocked_from(from, to, blocked.data());
     EXPECT_EQ(std::count(blocked.begin(), blocked.end(), 0), 0);
-    std::vector<Segment> segments(to.size());
-    std::transform(to.begin(), to.end(), segments.begin(), [&](const Vec3& end) { return Segment{from, end}; });
+    std::vector<Sightline> segments(to.size());
+    std::transform(to.begin(), to.end(), segments.begin(), [&](const Vec3& end) { return Sightline{from, end}; });
     const auto unpacked = answers(embree, segments);
     EXPECT_EQ(std::count(unpacked.begin(), unpacked.end(), 0), 0);
 

@@ -94,7 +94,7 @@ inline TriangleSoup sphere(std::uint32_t rows, std::uint32_t columns) {
 
 /// Whether the answer hangs on no rounding: the segment's line keeps `margin` from the lines of all edges, and both
 /// ends from all planes.
-inline bool is_clear(const TriangleSoup& soup, const Segment& segment, double margin) {
+inline bool is_clear(const TriangleSoup& soup, const Sightline& segment, double margin) {
   const Vec3 direction = segment.to - segment.from;
   for (std::size_t i = 0; i < soup.corners.size() / 3; ++i) {
     const std::array<Vec3, 3> triangle = soup.triangle(i);

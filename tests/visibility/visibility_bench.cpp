@@ -113,7 +113,7 @@ void one_receiver_to_4_points(benchmark::State& state) {
 
 void sixteen_neighbours_to_one_point(benchmark::State& state) {
   run(state, [](const Room& room, std::uint8_t* blocked) {
-    Segment segments[16];
+    Sightline segments[16];
     for (std::size_t i = 0; i < k_receivers; i += 16) {
       for (std::size_t point = 0; point < k_points; ++point) {
         for (std::size_t neighbour = 0; neighbour < 16; ++neighbour) {
