@@ -6,9 +6,8 @@
 
 namespace radvor {
 
-Gather::Gather(const Scene& scene, const WeldedScene& welded, const Facets& facets,
-               std::span<const std::uint32_t> occluders, Host& host)
-    : scene_(scene), welded_(welded), facets_(facets), occluders_(occluders), host_(host), records_(&host.memory) {}
+Gather::Gather(const Scene& scene, const Facets& facets, std::span<const std::uint32_t> occluders, Host& host)
+    : scene_(scene), facets_(facets), occluders_(occluders), host_(host), records_(&host.memory) {}
 
 std::uint32_t Gather::add(std::uint32_t count) {
   const std::uint32_t first = size();

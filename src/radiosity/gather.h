@@ -32,8 +32,7 @@ struct Outlook {
 class Gather {
  public:
   /// occluders: the welded triangle of each triangle given to the visibility. Keeps references to all arguments.
-  Gather(const Scene& scene, const WeldedScene& welded, const Facets& facets, std::span<const std::uint32_t> occluders,
-         Host& host);
+  Gather(const Scene& scene, const Facets& facets, std::span<const std::uint32_t> occluders, Host& host);
 
   /// A record for each of a number of receivers to come; the first one's number.
   std::uint32_t add(std::uint32_t count);
@@ -67,7 +66,6 @@ class Gather {
   };
 
   const Scene& scene_;
-  const WeldedScene& welded_;
   const Facets& facets_;
   std::span<const std::uint32_t> occluders_;
   Host& host_;

@@ -78,7 +78,7 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
   std::pmr::vector<std::uint32_t> all(samples.size(), &host.memory);
   std::iota(all.begin(), all.end(), 0u);
   blocks_.emplace(*surface, receivers_, all, host);
-  hemispheres_.emplace(scene, *welded, *facets, occluders_, host);
+  hemispheres_.emplace(scene, *facets, occluders_, host);
   stats_.seconds_setup = std::chrono::duration<double>(Clock::now() - begin).count();
   seconds = stats_.seconds_setup;
 }

@@ -99,7 +99,8 @@ TEST(Context, GivesAllMemoryBackWhereCreationFails) {
         return nullptr;
       }
       ++live;
-      return std::aligned_alloc(std::max(alignment, sizeof(void*)), (bytes + alignment - 1) / alignment * alignment);
+      const std::size_t unit = std::max(alignment, sizeof(void*));  // what aligned_alloc takes, and multiples of it
+      return std::aligned_alloc(unit, (bytes + unit - 1) / unit * unit);
     };
     desc.release = [](void*, void* memory, std::size_t, std::size_t) {
       --live;
