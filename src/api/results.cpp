@@ -106,6 +106,7 @@ radvor_stats stats_of(const radvor_solution& solution) {
   stats.constraints = surface.constraint_count();
   stats.repaired_triangles = welded.degenerate_triangles + welded.duplicate_triangles;
   stats.repaired_t_junctions = welded.t_junctions;
+  stats.intersections = static_cast<std::uint32_t>(bake.facets().contacts.edges.size());
   stats.shots = light.shots;
   stats.rays = light.rays;
   stats.form_factors = light.form_factors;

@@ -10,6 +10,7 @@
 #include "radiosity/fate.h"
 #include "radiosity/links.h"
 #include "radiosity/shooting_tree.h"
+#include "scene/find_contacts.h"
 
 namespace radvor {
 
@@ -53,7 +54,12 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
   const Clock::time_point begin = Clock::now();
   welded.emplace(weld(scene, options.weld_distance, host));
   facets.emplace(find_facets(scene, *welded, options.crease_angle, host));
-  surface.emplace(scene, *welded, *facets, choose_spacing(scene, *welded, *facets, options.spacing), host);
+  const SurfaceOptions spacing = choose_spacing(scene, *welded, *facets, options.spacing);
+  if ((options.disable & Disable::intersections) == 0) {
+    const double elements = std::ldexp(spacing.patch_spacing, -static_cast<int>(spacing.element_levels));
+    find_contacts(scene, *welded, *facets, ContactLimits::at_spacing(elements), host);
+  }
+  surface.emplace(scene, *welded, *facets, spacing, host);
 
   std::pmr::vector<std::uint32_t> corners(&host.memory);
   for (std::uint32_t t = 0; t < welded->triangles.size(); ++t) {

@@ -193,7 +193,12 @@ void mark_flat(Facets& facets) {
 }  // namespace
 
 Facets::Facets(std::pmr::memory_resource* memory)
-    : facets(memory), triangles(memory), facet_of_triangle(memory), edge_kinds(memory), corner_normals(memory) {}
+    : facets(memory),
+      triangles(memory),
+      facet_of_triangle(memory),
+      edge_kinds(memory),
+      corner_normals(memory),
+      contacts(memory) {}
 
 std::span<const std::uint32_t> Facets::triangles_of(std::uint32_t facet) const {
   return std::span(triangles).subspan(facets[facet].first_triangle, facets[facet].triangle_count);

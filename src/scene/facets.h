@@ -10,6 +10,7 @@
 
 #include "base/host.h"
 #include "base/vector.h"
+#include "scene/contacts.h"
 #include "scene/welded.h"
 
 namespace radvor {
@@ -22,6 +23,7 @@ struct Frame {
   double unit = 0x1p-40;
 
   Vec2 to_plane(const Vec3& p) const;  ///< projected and snapped
+  Vec2 snapped(const Vec2& p) const;
   Vec3 to_world(const Vec2& p) const { return origin + p.x * u + p.y * v; }
 };
 
@@ -50,6 +52,7 @@ struct Facets {
   std::pmr::vector<std::uint32_t> facet_of_triangle;     ///< per welded triangle
   std::pmr::vector<EdgeKind> edge_kinds;                 ///< per welded edge
   std::pmr::vector<std::array<Vec3, 3>> corner_normals;  ///< unit shading normals per welded triangle, front side
+  Contacts contacts;                                     ///< none before find_contacts
 
   std::span<const std::uint32_t> triangles_of(std::uint32_t facet) const;
 };

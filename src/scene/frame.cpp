@@ -7,8 +7,12 @@ namespace radvor {
 
 Vec2 Frame::to_plane(const Vec3& p) const {
   const Vec3 offset = p - origin;
+  return snapped({dot(offset, u), dot(offset, v)});
+}
+
+Vec2 Frame::snapped(const Vec2& p) const {
   // unit is a power of two: dividing and multiplying by it is exact.
-  return {std::nearbyint(dot(offset, u) / unit) * unit, std::nearbyint(dot(offset, v) / unit) * unit};
+  return {std::nearbyint(p.x / unit) * unit, std::nearbyint(p.y / unit) * unit};
 }
 
 }  // namespace radvor

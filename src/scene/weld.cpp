@@ -184,25 +184,6 @@ void join_by_edges(EdgeChains& chains, const Sides& sides, WeldedScene& welded, 
   welded.first_use.push_back(static_cast<std::uint32_t>(welded.uses_by_triangle.size()));
 }
 
-// Counting sort of the uses by edge.
-void group_uses(WeldedScene& welded) {
-  auto& first = welded.first_of_edge;
-  first.assign(welded.edges.size() + 1, 0);
-  for (const EdgeUse& use : welded.uses_by_triangle) {
-    ++first[use.edge + 1];
-  }
-  for (std::size_t e = 0; e < welded.edges.size(); ++e) {
-    first[e + 1] += first[e];
-  }
-  welded.uses_of_edge.resize(welded.uses_by_triangle.size());
-  for (std::uint32_t i = static_cast<std::uint32_t>(welded.uses_by_triangle.size()); i-- > 0;) {
-    // Filled from the back, so that each group ends up in order and `first` one group too far.
-    welded.uses_of_edge[--first[welded.uses_by_triangle[i].edge + 1]] = i;
-  }
-  first.erase(first.begin());
-  first.push_back(static_cast<std::uint32_t>(welded.uses_by_triangle.size()));
-}
-
 void find_bounds(WeldedScene& welded) {
   Box box;
   for (const Triangle& triangle : welded.triangles) {
@@ -240,6 +221,25 @@ WeldedScene::WeldedScene(std::pmr::memory_resource* memory)
       first_use(memory),
       uses_of_edge(memory),
       first_of_edge(memory) {}
+
+// Counting sort of the uses by edge.
+void group_uses(WeldedScene& welded) {
+  auto& first = welded.first_of_edge;
+  first.assign(welded.edges.size() + 1, 0);
+  for (const EdgeUse& use : welded.uses_by_triangle) {
+    ++first[use.edge + 1];
+  }
+  for (std::size_t e = 0; e < welded.edges.size(); ++e) {
+    first[e + 1] += first[e];
+  }
+  welded.uses_of_edge.resize(welded.uses_by_triangle.size());
+  for (std::uint32_t i = static_cast<std::uint32_t>(welded.uses_by_triangle.size()); i-- > 0;) {
+    // Filled from the back, so that each group ends up in order and `first` one group too far.
+    welded.uses_of_edge[--first[welded.uses_by_triangle[i].edge + 1]] = i;
+  }
+  first.erase(first.begin());
+  first.push_back(static_cast<std::uint32_t>(welded.uses_by_triangle.size()));
+}
 
 std::span<const EdgeUse> WeldedScene::uses_of_triangle(std::uint32_t triangle) const {
   return std::span(uses_by_triangle).subspan(first_use[triangle], first_use[triangle + 1] - first_use[triangle]);

@@ -32,11 +32,14 @@ struct Edge {
   std::uint32_t a, b;
 };
 
+/// Of the use of a contact edge, which lies inside the facet that its triangle is one of.
+inline constexpr std::uint8_t k_no_side = 3;
+
 /// One side of a triangle, or the part of it that one edge makes up where T-junctions divide the side.
 struct EdgeUse {
   std::uint32_t edge;
   std::uint32_t triangle;
-  std::uint8_t side;  ///< from corner `side` to corner (side + 1) % 3
+  std::uint8_t side;  ///< from corner `side` to corner (side + 1) % 3; k_no_side
   bool forward;       ///< the triangle runs the edge from a to b
 };
 
@@ -48,7 +51,7 @@ struct WeldedScene {
   std::pmr::vector<std::pmr::vector<std::uint32_t>> vertex_of;  ///< per mesh: welded vertex of each mesh vertex
   std::pmr::vector<Triangle> triangles;
   std::pmr::vector<Edge> edges;
-  std::pmr::vector<EdgeUse> uses_by_triangle;     ///< in order round each triangle
+  std::pmr::vector<EdgeUse> uses_by_triangle;     ///< in order round each triangle; then those of contact edges
   std::pmr::vector<std::uint32_t> first_use;      ///< per triangle (and one past the last) into uses_by_triangle
   std::pmr::vector<std::uint32_t> uses_of_edge;   ///< indices into uses_by_triangle, grouped by edge
   std::pmr::vector<std::uint32_t> first_of_edge;  ///< per edge (and one past the last) into uses_of_edge
@@ -64,6 +67,9 @@ struct WeldedScene {
   std::span<const EdgeUse> uses_of_triangle(std::uint32_t triangle) const;
   std::span<const std::uint32_t> uses_at_edge(std::uint32_t edge) const;
 };
+
+/// Fills uses_of_edge and first_of_edge from uses_by_triangle: a counting sort.
+void group_uses(WeldedScene& welded);
 
 /// Makes one body of all meshes. Logs one line for each kind of repair.
 ///

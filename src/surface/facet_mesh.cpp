@@ -22,9 +22,9 @@ bool FacetMesh::needed(const FacetInput& input) {
   }
   const auto triangles = input.facets.triangles_of(input.index);
   const auto uses = input.welded.uses_of_triangle(triangles.front());
-  return triangles.size() != 1 || uses.size() != 3 || std::any_of(uses.begin(), uses.end(), [&](const EdgeUse& use) {
-           return input.borders.count_on_edge(use.edge) != 0;
-         });
+  return triangles.size() != 1 || uses.size() != 3 || !input.facets.contacts.of_facet(input.index).empty() ||
+         std::any_of(uses.begin(), uses.end(),
+                     [&](const EdgeUse& use) { return input.borders.count_on_edge(use.edge) != 0; });
 }
 
 void FacetMesh::number_shares(std::uint32_t first) {

@@ -44,6 +44,11 @@ FacetOutline::FacetOutline(const WeldedScene& welded, const Facets& facets, std:
     vertices.push_back(welded.edges[edge].b);
     first = end;
   }
+  for (const ContactEdge& contact : facets.contacts.of_facet(facet)) {
+    edges.push_back({contact.edge, delaunay::constraint::k_discontinuous, 0, 0});
+    vertices.push_back(welded.edges[contact.edge].a);
+    vertices.push_back(welded.edges[contact.edge].b);
+  }
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
 }

@@ -1,5 +1,5 @@
-// What bounds and cuts a facet: its welded edges other than those that leave no trace, each with the kind of constraint
-// it is in the facet's triangulation.
+// What bounds and cuts a facet: its welded edges other than those that leave no trace, and its contacts with other
+// surfaces, each with the kind of constraint it is in the facet's triangulation.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ namespace radvor {
 
 struct OutlineEdge {
   std::uint32_t edge;
-  std::uint8_t flags;  ///< delaunay::constraint
-  std::uint32_t first_use, use_count;
+  std::uint8_t flags;                  ///< delaunay::constraint
+  std::uint32_t first_use, use_count;  ///< contacts have none
 };
 
 struct FacetOutline {

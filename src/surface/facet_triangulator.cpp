@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "base/error.h"
+#include "scene/disjoint_sets.h"
 #include "surface/border.h"
 #include "surface/facet_outline.h"
 #include "surface/interior_sites.h"
@@ -123,6 +125,10 @@ bool FacetTriangulator::insert_borders(delaunay::Triangulation& triangulation) {
   }
   for (std::size_t k = 0; k < outline_.edges.size(); ++k) {
     for (std::uint32_t at = first_of_chain_[k]; at + 1 < first_of_chain_[k + 1]; ++at) {
+      if (outline_.edges[k].use_count == 0) {
+        constrain_contact(triangulation, chains_[at], chains_[at + 1]);
+        continue;
+      }
       triangulation.constrain(chains_[at], chains_[at + 1], outline_.edges[k].flags);
       if (triangulation.constraint_flags(chains_[at], chains_[at + 1]) == 0) {
         return false;  // another site lies on it, though not in space
@@ -130,6 +136,19 @@ bool FacetTriangulator::insert_borders(delaunay::Triangulation& triangulation) {
     }
   }
   return true;
+}
+
+// Contacts come after the borders. Rounding may let two pieces cross at a sharp angle: then light leaks through one of
+// them, and nothing worse.
+void FacetTriangulator::constrain_contact(delaunay::Triangulation& triangulation, delaunay::VertexId a,
+                                          delaunay::VertexId b) {
+  try {
+    triangulation.constrain(a, b, delaunay::constraint::k_discontinuous);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::constraint) {
+      throw;
+    }
+  }
 }
 
 bool FacetTriangulator::insert_inner(delaunay::Triangulation& triangulation) {
@@ -252,6 +271,44 @@ void FacetTriangulator::find_patches() {
     for (FacetShare& share : draft_.shares) {
       share.patch = patches.nearest(share.position, share.receiver);
     }
+    if (!in_.facets.contacts.of_facet(in_.index).empty()) {
+      gather_cut_off();
+    }
+  }
+}
+
+// Shares that see no site of level 0 become patches of their own, each on one side of every contact: what is lit and
+// what is dark must not shoot together.
+void FacetTriangulator::gather_cut_off() {
+  DisjointSets regions(static_cast<std::uint32_t>(draft_.shares.size()), in_.memory);
+  for (const ShareTriangle& triangle : mesh_.triangles_) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = triangle[k];
+      const std::uint32_t b = triangle[(k + 1) % 3];
+      if (draft_.shares[a].patch == k_none && draft_.shares[b].patch == k_none) {
+        regions.unite(a, b);
+      }
+    }
+  }
+  struct Place {
+    std::uint32_t region;
+    double row, column;  // of squares as wide as patches
+    std::uint32_t share;
+    auto tie() const { return std::tie(region, row, column); }
+  };
+  std::pmr::vector<Place> places(in_.memory);
+  for (std::uint32_t s = 0; s < draft_.shares.size(); ++s) {
+    if (draft_.shares[s].patch == k_none) {
+      const Vec2 square = (draft_.shares[s].position - low_) / in_.options.patch_spacing;
+      places.push_back({regions.find(s), std::floor(square.y), std::floor(square.x), s});
+    }
+  }
+  std::ranges::sort(places, [](const Place& x, const Place& y) {
+    return x.tie() != y.tie() ? x.tie() < y.tie() : x.share < y.share;
+  });
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    draft_.patch_count += k == 0 || places[k].tie() != places[k - 1].tie() ? 1 : 0;
+    draft_.shares[places[k].share].patch = draft_.patch_count - 1;
   }
 }
 

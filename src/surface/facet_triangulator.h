@@ -24,11 +24,13 @@ class FacetTriangulator {
  private:
   bool insert_corners(delaunay::Triangulation& triangulation);
   bool insert_borders(delaunay::Triangulation& triangulation);
+  static void constrain_contact(delaunay::Triangulation& triangulation, delaunay::VertexId a, delaunay::VertexId b);
   bool insert_inner(delaunay::Triangulation& triangulation);
   bool find_shares(const delaunay::Triangulation& triangulation);
   bool find_triangles(const delaunay::Triangulation& triangulation);
   bool find_sources(const delaunay::Triangulation& triangulation);
   void find_patches();
+  void gather_cut_off();
   delaunay::VertexId corner(std::uint32_t welded_vertex) const;
 
   const FacetInput& in_;

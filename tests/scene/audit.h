@@ -45,7 +45,12 @@ inline std::string audit(const WeldedScene& w) {
     }
     uses += outline.size();
   }
-  if (uses != w.uses_by_triangle.size() || uses != w.uses_of_edge.size()) {
+  for (std::size_t use = uses; use < w.uses_by_triangle.size(); ++use, ++uses) {
+    if (w.uses_by_triangle[use].side != k_no_side) {
+      return "a use that is no triangle's is no contact's either";
+    }
+  }
+  if (uses != w.uses_of_edge.size()) {
     return "uses are lost";
   }
   std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;
@@ -54,7 +59,6 @@ inline std::string audit(const WeldedScene& w) {
     if (!lies_before(w.positions[edge.a], w.positions[edge.b])) {
       return "edge " + std::to_string(e) + " is not ordered by position";
     }
-    ends.emplace_back(edge.a, edge.b);
     if (w.uses_at_edge(e).empty()) {
       return "edge " + std::to_string(e) + " has no use";
     }
@@ -62,6 +66,9 @@ inline std::string audit(const WeldedScene& w) {
       if (w.uses_by_triangle[use].edge != e) {
         return "edge " + std::to_string(e) + " lists a use of another";
       }
+    }
+    if (w.uses_by_triangle[w.uses_at_edge(e).front()].side != k_no_side) {
+      ends.emplace_back(edge.a, edge.b);  // facets that lie on each other may have the same contacts
     }
   }
   std::ranges::sort(ends);
@@ -160,6 +167,10 @@ inline std::string audit(const WeldedScene& w, const Facets& f) {
   }
   for (std::uint32_t e = 0; e < w.edges.size(); ++e) {
     const auto uses = w.uses_at_edge(e);
+    if (w.uses_by_triangle[uses.front()].side == k_no_side &&
+        (uses.size() != 1 || f.edge_kinds[e] != EdgeKind::sharp)) {
+      return "contact " + std::to_string(e) + " is not one facet's alone";
+    }
     const auto facet = [&](std::size_t use) { return f.facet_of_triangle[w.uses_by_triangle[uses[use]].triangle]; };
     const bool inside = f.edge_kinds[e] == EdgeKind::interior || f.edge_kinds[e] == EdgeKind::seam;
     const bool manifold =

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <map>
 #include <numbers>
 #include <string>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "scene/facets.h"
+#include "scene/find_contacts.h"
 #include "scene/scene.h"
 #include "scene/welded.h"
 #include "support/test_host.h"
@@ -19,12 +21,15 @@
 
 namespace radvor::test {
 
+enum class Touching { ignored, found, however_small };
+
 struct MadeSurface {
-  MadeSurface(Scene given, const SurfaceOptions& options, std::uint32_t threads = 2)
+  MadeSurface(Scene given, const SurfaceOptions& options, std::uint32_t threads = 2,
+              Touching touching = Touching::found)
       : host(threads),
         scene(std::move(given)),
         welded(weld(scene, 0, host)),
-        facets(find_facets(scene, welded, std::numbers::pi / 6, host)),
+        facets(facets_of(options, touching)),
         surface(scene, welded, facets, options, host) {}
 
   TestHost host;
@@ -32,6 +37,18 @@ struct MadeSurface {
   WeldedScene welded;
   Facets facets;
   Surface surface;
+
+ private:
+  Facets facets_of(const SurfaceOptions& options, Touching touching) {
+    Facets found = find_facets(scene, welded, std::numbers::pi / 6, host);
+    if (touching != Touching::ignored) {
+      const double spacing = std::ldexp(options.patch_spacing, -static_cast<int>(options.element_levels));
+      ContactLimits limits = ContactLimits::at_spacing(spacing);
+      limits.least = touching == Touching::however_small ? 0 : limits.least;
+      find_contacts(scene, welded, found, limits, host);
+    }
+    return found;
+  }
 };
 
 inline const Site& site_of(const Surface& surface, std::uint32_t share) {

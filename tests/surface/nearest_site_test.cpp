@@ -16,7 +16,7 @@ struct Wall {
   Vec2 a, b;
 };
 
-// All of a facet's borders and slits, from the scene alone.
+// All of a facet's borders, slits and contacts, from the scene alone.
 std::vector<Wall> walls_of(const MadeSurface& made, std::uint32_t facet) {
   std::vector<Wall> walls;
   const Frame& frame = made.facets.facets[facet].frame;
@@ -28,6 +28,10 @@ std::vector<Wall> walls_of(const MadeSurface& made, std::uint32_t facet) {
         walls.push_back({frame.to_plane(made.welded.positions[edge.a]), frame.to_plane(made.welded.positions[edge.b])});
       }
     }
+  }
+  for (const ContactEdge& contact : made.facets.contacts.of_facet(facet)) {
+    const Edge& edge = made.welded.edges[contact.edge];
+    walls.push_back({frame.to_plane(made.welded.positions[edge.a]), frame.to_plane(made.welded.positions[edge.b])});
   }
   return walls;
 }
@@ -161,6 +165,18 @@ TEST(NearestSite, AroundAWallWithoutThickness) {
     SceneBuilder builder(heap());
     test::floor_with_wall(builder);
     check_all(MadeSurface(builder.take(), {Lattice::hexagonal, spacing, 1, 0}), 2000);
+  }
+}
+
+TEST(NearestSite, AroundBoxesThatStandOnAndCutThroughEachOther) {
+  for (const double spacing : {0.4, 3.0}) {
+    SceneBuilder builder(heap());
+    test::room_with_boxes(builder);
+    builder.begin_mesh();
+    builder.box({1, 1.5, 0.5}, {2.5, 1.8, 5}, false);  // through the standing box, the floating one and the ceiling
+    const MadeSurface made(builder.take(), {Lattice::hexagonal, spacing, 1, 0});
+    EXPECT_GT(made.facets.contacts.edges.size(), 20u);
+    check_all(made, 2000);
   }
 }
 

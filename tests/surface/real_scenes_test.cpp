@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <map>
 
+#include "scene/audit.h"
+#include "scene/find_contacts.h"
 #include "scene/obj_scene.h"
 #include "surface/made_surface.h"
 #include "surface/spacing.h"
@@ -21,20 +25,29 @@ TEST_P(RealScene, BecomesASurface) {
   if (!scene) {
     GTEST_SKIP() << "no " << RADVOR_SHARED_DIR << "/scenes/" << GetParam();
   }
-  const WeldedScene welded = weld(*scene, 0, host);
-  const Facets facets = find_facets(*scene, welded, std::numbers::pi / 6, host);
+  WeldedScene welded = weld(*scene, 0, host);
+  Facets facets = find_facets(*scene, welded, std::numbers::pi / 6, host);
   const SurfaceOptions options = choose_spacing(*scene, welded, facets, {});
+  const std::clock_t contacts_start = std::clock();
+  const double spacing = std::ldexp(options.patch_spacing, -static_cast<int>(options.element_levels));
+  find_contacts(*scene, welded, facets, ContactLimits::at_spacing(spacing), host);
+  const double contact_seconds = static_cast<double>(std::clock() - contacts_start) / CLOCKS_PER_SEC;
+  EXPECT_LT(contact_seconds, 30) << "not in proportion to the size";  // at most 1 s in a release build
+  EXPECT_EQ(test::audit(welded), "");
+  EXPECT_EQ(test::audit(welded, facets), "");
   const std::uint64_t before = host.memory.live_bytes();
   const auto start = std::chrono::steady_clock::now();
   const Surface surface(*scene, welded, facets, options, host);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::printf(
-      "%s: %zu triangles, %zu facets, spacing %.4g / 2^%u: %zu sites, %zu samples, %zu shares, %u patches, %u "
+      "%s: %zu triangles, %zu facets, %zu contacts in %.3f s, spacing %.4g / 2^%u: %zu sites, %zu samples, %zu shares, "
+      "%u patches, %u "
       "triangles, "
       "%.3f s, %.0f MB, peak %.0f MB\n",
-      GetParam(), welded.triangles.size(), facets.facets.size(), options.patch_spacing, options.element_levels,
-      surface.sites().size(), surface.samples().size(), surface.shares().size(), surface.patch_count(),
-      surface.triangle_count(), seconds, 1e-6 * static_cast<double>(host.memory.live_bytes() - before),
+      GetParam(), welded.triangles.size(), facets.facets.size(), facets.contacts.edges.size(), contact_seconds,
+      options.patch_spacing, options.element_levels, surface.sites().size(), surface.samples().size(),
+      surface.shares().size(), surface.patch_count(), surface.triangle_count(), seconds,
+      1e-6 * static_cast<double>(host.memory.live_bytes() - before),
       1e-6 * static_cast<double>(host.memory.peak_bytes()));
   EXPECT_GT(surface.patch_count(), 500u);
   EXPECT_LT(surface.patch_count(), 6000u);
@@ -47,6 +60,10 @@ TEST_P(RealScene, BecomesASurface) {
     expected += facet.area;
   }
   EXPECT_NEAR(area, expected, 1e-6 * expected);
+}
+
+bool is_contact(const WeldedScene& welded, std::uint32_t edge) {
+  return welded.uses_by_triangle[welded.uses_at_edge(edge).front()].side == k_no_side;
 }
 
 // Edges of the surface's triangles that are met from one side alone, and are no piece of an edge of the input that is
@@ -89,7 +106,8 @@ std::size_t torn_edges(const Surface& surface, const WeldedScene& welded, std::s
         const auto found = edge_between.find({std::min(a.vertex, b.vertex), std::max(a.vertex, b.vertex)});
         edge = found == edge_between.end() ? k_none : found->second;
       }
-      torn += edge == k_none || !lies_on(a, edge) || !lies_on(b, edge) || welded.uses_at_edge(edge).size() % 2 == 0;
+      torn += edge == k_none || !lies_on(a, edge) || !lies_on(b, edge) || welded.uses_at_edge(edge).size() % 2 == 0 ||
+              is_contact(welded, edge);
     }
     first = end;
   }
@@ -111,11 +129,13 @@ TEST_P(RealScene, IsRefinedAlongAPlane) {
   if (!scene) {
     GTEST_SKIP() << "no " << RADVOR_SHARED_DIR << "/scenes/" << GetParam();
   }
-  const WeldedScene welded = weld(*scene, 0, host);
-  const Facets facets = find_facets(*scene, welded, std::numbers::pi / 6, host);
+  WeldedScene welded = weld(*scene, 0, host);
+  Facets facets = find_facets(*scene, welded, std::numbers::pi / 6, host);
   SpacingRequest request;
   request.refines = true;
   const SurfaceOptions options = choose_spacing(*scene, welded, facets, request);
+  const double spacing = std::ldexp(options.patch_spacing, -static_cast<int>(options.element_levels));
+  find_contacts(*scene, welded, facets, ContactLimits::at_spacing(spacing), host);
   Surface surface(*scene, welded, facets, options, host);
   const std::size_t before = surface.sites().size();
   const std::vector<double> areas_before = areas_of_facets(surface, facets.facets.size());

@@ -294,7 +294,7 @@ TEST(Refine, LightThatIsLinearOnEveryFacetStaysAsItWas) {
 
 TEST(Refine, NewSitesAreTheMidpointsOfTheirParents) {
   for (const Lattice lattice : k_both) {
-    MadeSurface made(room(), options(0.9, 3, lattice));
+    MadeSurface made(room(), options(0.9, 3, lattice), 2, test::Touching::ignored);
     std::mt19937 random(6);
     std::size_t with_parents = 0;
     for (int round = 0; round < 3; ++round) {

@@ -85,7 +85,7 @@ TEST(Surface, PatchesAreTheElementsNearestToALevelZeroSite) {
 TEST(Surface, NeighboursShareBorderSites) {
   SceneBuilder builder(heap());
   test::room_with_boxes(builder);
-  const MadeSurface made(builder.take(), spaced(0.8, 2));
+  const MadeSurface made(builder.take(), spaced(0.8, 2), 2, test::Touching::ignored);
   test::audit(made);
   test::audit_cells(made);
   EXPECT_EQ(test::unmatched_edges(made), 0u);
