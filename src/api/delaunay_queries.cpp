@@ -72,6 +72,33 @@ void for_each_hull_vertex(const Triangulation& d, Function&& function) {
   } while (h != first);
 }
 
+// Each once, from its lower end; wanted(half-edge).
+template <class Wanted>
+void give_edges(const Triangulation& d, std::uint32_t* pairs, std::uint32_t* count, Wanted&& wanted) {
+  require(count, "the count");
+  const std::uint32_t capacity = *count;
+  std::uint32_t size = 0;
+  const auto for_each = [&](auto&& function) {
+    for (TriangleId t = 0; t < d.triangle_bound(); ++t) {
+      for (std::uint32_t corner = 0; corner < 3 && !d.mesh().is_free(t); ++corner) {
+        const HalfEdge h = half_edge(t, corner);
+        if (d.origin(h) < d.target(h) && d.target(h) != k_infinite && wanted(h)) {
+          function(h);
+        }
+      }
+    }
+  };
+  for_each([&](HalfEdge) { ++size; });
+  *count = size;
+  if (pairs) {
+    check_capacity("pairs", capacity, size);
+    for_each([&](HalfEdge h) {
+      *pairs++ = d.origin(h);
+      *pairs++ = d.target(h);
+    });
+  }
+}
+
 void give_polygon(std::span<const Vec2> points, double* polygon, std::uint32_t* size) {
   if (size) {
     const auto count = static_cast<std::uint32_t>(points.size());
@@ -272,26 +299,15 @@ radvor_result radvor_delaunay_hull(const radvor_delaunay* delaunay, uint32_t* ve
   });
 }
 
+radvor_result radvor_delaunay_edges(const radvor_delaunay* delaunay, uint32_t* pairs, uint32_t* count) {
+  return enter(context_of(delaunay), __func__,
+               [&] { give_edges(delaunay->triangulation, pairs, count, [](HalfEdge) { return true; }); });
+}
+
 radvor_result radvor_delaunay_constraints(const radvor_delaunay* delaunay, uint32_t* pairs, uint32_t* count) {
   return enter(context_of(delaunay), __func__, [&] {
-    require(count, "the count");
     const Triangulation& d = delaunay->triangulation;
-    const std::uint32_t size = d.constraint_count();
-    const std::uint32_t capacity = *count;
-    *count = size;
-    if (!pairs) {
-      return;
-    }
-    check_capacity("pairs", capacity, size);
-    for (TriangleId t = 0; t < d.triangle_bound(); ++t) {
-      for (std::uint32_t corner = 0; corner < 3 && !d.mesh().is_free(t); ++corner) {
-        const HalfEdge h = half_edge(t, corner);
-        if (d.constraint_flags(h) != 0 && d.origin(h) < d.target(h)) {
-          *pairs++ = d.origin(h);
-          *pairs++ = d.target(h);
-        }
-      }
-    }
+    give_edges(d, pairs, count, [&](HalfEdge h) { return d.constraint_flags(h) != 0; });
   });
 }
 

@@ -72,6 +72,9 @@ double Triangulation::interpolate_natural(Vec2 point, VertexId* hint) const {
   collect_cavity(point, triangle_of(at.edge), k_none, lattice, cavity);
   const std::span<const Cavity::Slot> border(cavity.slots.data(), cavity.border_size);
 
+  for (const Cavity::Slot& edge : border) {
+    __builtin_prefetch(&values_[target(edge.outer)]);
+  }
   const auto offset = [&](VertexId v) { return positions_[v] - point; };
   const auto compute_old_centre = [&](TriangleId t) {
     const auto& v = mesh_.triangle(t).vertex;
