@@ -114,6 +114,8 @@ radvor_stats stats_of(const radvor_solution& solution) {
   stats.skipped_negligible = light.skipped_negligible;
   stats.skipped_lazy = light.skipped_lazy;
   stats.skipped_clear = light.skipped_clear;
+  stats.ties = light.ties;
+  stats.realigned_ties = light.realigned_ties;
   stats.seconds_setup = light.seconds_setup;
   stats.seconds_direct = light.seconds_direct;
   stats.seconds_indirect = light.seconds_indirect;

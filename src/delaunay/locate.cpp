@@ -211,6 +211,41 @@ Location Triangulation::straight_walk(Vec2 point, VertexId start, const Lattice&
   }
 }
 
+TriangleId Triangulation::locate_roughly(Vec2 point, std::array<double, 3>& weights) const {
+  if (flat_ || vertex_count_ < 3) {
+    return k_none;
+  }
+  HalfEdge start = start_near(point, k_none);
+  while (apex(start) != k_infinite && is_ghost(triangle_of(start))) {
+    start = next(start);
+  }
+  TriangleId t = triangle_of(is_ghost(triangle_of(start)) ? twin(start) : start);
+  constexpr int k_most_steps = 64;
+  for (int step = 0; step < k_most_steps && !is_ghost(t); ++step) {
+    const Triangle& triangle = mesh_.triangle(t);
+    const std::array<Vec2, 3> corners = {positions_[triangle.vertex[0]], positions_[triangle.vertex[1]],
+                                         positions_[triangle.vertex[2]]};
+    std::size_t beyond = 0;  // the edge that the point is farthest beyond
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2& from = corners[(k + 1) % 3];
+      weights[k] = cross(corners[(k + 2) % 3] - from, point - from);
+      beyond = weights[k] < weights[beyond] ? k : beyond;
+    }
+    if (weights[beyond] >= 0) {
+      const double sum = weights[0] + weights[1] + weights[2];
+      if (!(sum > 0)) {
+        return k_none;
+      }
+      for (double& weight : weights) {
+        weight /= sum;
+      }
+      return t;
+    }
+    t = triangle_of(triangle.twin[(beyond + 1) % 3]);
+  }
+  return k_none;
+}
+
 // All vertices on one line, in lexicographic order along the chain of edges.
 Location Triangulation::walk_chain(Vec2 point, HalfEdge start, const Lattice& lattice) const {
   HalfEdge h = start;

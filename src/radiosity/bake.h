@@ -38,6 +38,7 @@ struct BakeOptions {
 
 struct BakeStats {
   std::uint64_t shots = 0, rays = 0, form_factors = 0;
+  std::uint32_t ties = 0, realigned_ties = 0;
   std::uint64_t skipped_facing = 0, skipped_negligible = 0, skipped_lazy = 0, skipped_clear = 0;
   double seconds_setup = 0, seconds_direct = 0, seconds_indirect = 0, seconds_rays = 0;
   // W, summed over RGB; each measured, none the remainder of the others.

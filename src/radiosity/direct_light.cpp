@@ -71,15 +71,17 @@ std::uint32_t DirectLight::source_count() const {
   return static_cast<std::uint32_t>(punctual_.size() + emitting_facets_.size());
 }
 
-Color DirectLight::irradiance(std::uint32_t source, const Receiver& receiver, Tracer& tracer) const {
+Color DirectLight::irradiance(std::uint32_t source, const Receiver& receiver, Tracer& tracer, Sight& sight) const {
   if (source < punctual_.size()) {
-    return irradiance_of_punctual_light(punctual_[source], receiver, tracer, far_);
+    return irradiance_of_punctual_light(punctual_[source], receiver, tracer, far_, sight);
   }
   source -= static_cast<std::uint32_t>(punctual_.size());
   Color sum(0.0);
   const EmitterRange range = emitting_facets_[source];
   for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
-    sum += irradiance_of_emitter(emitters_[i], receiver, tracer, accuracy_, occluders_);
+    Sight of_triangle;
+    sum += irradiance_of_emitter(emitters_[i], receiver, tracer, accuracy_, occluders_, of_triangle);
+    sight.add(of_triangle);
   }
   return sum;
 }

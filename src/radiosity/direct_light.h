@@ -25,8 +25,8 @@ class DirectLight {
   /// A source is one light, or the emitting triangles of one facet and side. Dark ones and skies are none.
   std::uint32_t source_count() const;
 
-  /// What one source adds at a receiver, W m^-2.
-  Color irradiance(std::uint32_t source, const Receiver& receiver, Tracer& tracer) const;
+  /// What one source adds at a receiver, W m^-2, and how much of it is seen.
+  Color irradiance(std::uint32_t source, const Receiver& receiver, Tracer& tracer, Sight& sight) const;
 
   std::span<const Light> punctual_lights() const { return punctual_; }
   std::span<const Emitter> emitters() const { return emitters_; }

@@ -67,7 +67,7 @@ void look(const Emitter& emitter, const Receiver& receiver, Tracer& tracer, std:
 }  // namespace
 
 Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tracer& tracer,
-                            const EmitterAccuracy& accuracy, const OccluderTree* occluders) {
+                            const EmitterAccuracy& accuracy, const OccluderTree* occluders, Sight& sight) {
   const double whole = polygon_form_factor(receiver.point, receiver.normal, emitter.corners, emitter.normal);
   ++tracer.counters.form_factors;
   if (whole <= 0) {
@@ -80,6 +80,7 @@ Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tr
   if (occluders != nullptr && whole > may_stay) {
     if (const auto seen =
             clipped_form_factor(receiver, emitter.corners, emitter.normal, whole, k_max_clipped, tracer, *occluders)) {
+      sight = {*seen > 0, *seen < whole};
       return emitter.radiosity * *seen;
     }
   }
@@ -97,6 +98,7 @@ Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tr
       hidden += verdict.hidden;
       seen += verdict.seen;
     }
+    sight.add({seen > 0, hidden > 0});
     for (std::size_t p = 0; p < parts.size(); ++p) {
       const Verdict& verdict = verdicts[p];
       if (hidden == 0 && seen > 0) {

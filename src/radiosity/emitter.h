@@ -8,6 +8,7 @@
 
 #include "radiosity/occluder_tree.h"
 #include "radiosity/receiver.h"
+#include "radiosity/sight.h"
 #include "radiosity/tracer.h"
 
 namespace radvor {
@@ -29,6 +30,6 @@ struct EmitterAccuracy {
 /// until what is at stake is under the tolerance's share of the mean irradiance; the last parts take the share of their
 /// points that is seen, weighted by the kernel. Points under the receiver's horizon are not there, rather than blocked.
 Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tracer& tracer,
-                            const EmitterAccuracy& accuracy, const OccluderTree* occluders = nullptr);
+                            const EmitterAccuracy& accuracy, const OccluderTree* occluders, Sight& sight);
 
 }  // namespace radvor

@@ -1,5 +1,6 @@
 #include "radiosity/gather.h"
 
+#include <algorithm>
 #include <array>
 
 #include "radiosity/hemisphere.h"
@@ -19,14 +20,17 @@ std::uint32_t Gather::add(std::uint32_t count) {
 }
 
 void Gather::trace(std::uint32_t index, const Receiver& receiver, std::uint32_t ray_count, std::uint64_t seed,
-                   Tracer& tracer) {
+                   const Surface& surface, Tracer& tracer) {
   Record& record = records_[index];
-  record.hits.clear();
-  record.hits.reserve(ray_count);
+  record.links.clear();
+  record.links.reserve(ray_count);
   record.weight = 1.0 / ray_count;
-  record.seed = seed;
+  const auto shares = surface.shares();
   const Net net(seed);
   const Basis basis(receiver.normal);
+  // The golden ratio's multiples are spread evenly whatever their number.
+  constexpr double k_golden = 0.6180339887498949;
+  double draw = to_unit(mix(seed + 1));
   std::uint32_t open = 0, backs = 0;
   double inverse_distance = 0;
   for (std::uint32_t ray = 0; ray < ray_count; ++ray) {
@@ -37,36 +41,32 @@ void Gather::trace(std::uint32_t index, const Receiver& receiver, std::uint32_t 
       continue;
     }
     inverse_distance += 1 / hit.distance;
-    const std::uint32_t triangle = occluders_[hit.triangle];
-    const std::uint32_t facet = facets_.facet_of_triangle[triangle];
+    const std::uint32_t facet = facets_.facet_of_triangle[occluders_[hit.triangle]];
     const Facet& described = facets_.facets[facet];
-    const Material& material = scene_.materials[described.material];
-    if (!scene_.meshes[described.mesh].receives || (!hit.front && !material.two_sided)) {
+    if (!scene_.meshes[described.mesh].receives || (!hit.front && !scene_.materials[described.material].two_sided)) {
       ++backs;
       continue;
     }
-    const Vec2 point = described.frame.to_plane(receiver.lifted + hit.distance * along);
-    record.hits.push_back({2 * facet + (hit.front ? 0 : 1), static_cast<float>(point.x), static_cast<float>(point.y)});
+    const FacetPoint point = surface.locate(facet, described.frame.to_plane(receiver.lifted + hit.distance * along));
+    draw += k_golden;
+    draw -= draw >= 1 ? 1 : 0;
+    const std::size_t corner = draw < point.weights[0] ? 0 : draw < point.weights[0] + point.weights[1] ? 1 : 2;
+    const std::uint32_t front = point.shares[corner];
+    record.links.push_back(hit.front ? front : shares[front].other_side);
   }
   record.outlook = {open * record.weight, backs * record.weight, inverse_distance * record.weight};
 }
 
-void Gather::settle(std::uint32_t index, const Surface& surface) {
-  Record& record = records_[index];
-  const auto shares = surface.shares();
-  record.links.reserve(record.hits.size());
-  // The golden ratio's multiples are spread evenly whatever their number.
-  constexpr double k_golden = 0.6180339887498949;
-  double draw = to_unit(mix(record.seed + 1));
-  for (const Hit& hit : record.hits) {
-    draw += k_golden;
-    draw -= draw >= 1 ? 1 : 0;
-    const FacetPoint point = surface.locate(hit.facet_and_side / 2, Vec2(hit.u, hit.v));
-    const std::size_t corner = draw < point.weights[0] ? 0 : draw < point.weights[0] + point.weights[1] ? 1 : 2;
-    const std::uint32_t front = point.shares[corner];
-    record.links.push_back((hit.facet_and_side & 1) != 0 ? shares[front].other_side : front);
-  }
-  std::pmr::vector<Hit>(record.hits.get_allocator()).swap(record.hits);
+void Gather::renumber(std::span<const std::uint32_t> now) {
+  constexpr std::uint32_t k_block = 256;
+  host_.jobs.for_each((size() + k_block - 1) / k_block, [&](std::uint32_t block) {
+    const std::uint32_t end = std::min(size(), (block + 1) * k_block);
+    for (std::uint32_t index = block * k_block; index < end; ++index) {
+      for (std::uint32_t& share : records_[index].links) {
+        share = now[share];
+      }
+    }
+  });
 }
 
 Color Gather::gather(std::uint32_t index, std::span<const glm::vec3> radiosity) const {

@@ -1,11 +1,8 @@
 // What receivers see of the scene: rays over each one's hemisphere, whose hits are kept. Every bounce reads them again,
 // so that only the first one casts rays; the sky is in the same rays.
 //
-//   trace: receiver --rays--> hits (facet, point)       before the surface has its last site
-//   settle: hits --> links (shares), 1 / rays each      after
-//
 // A link is a hit's share of its triangle: one of its three corners, drawn by the hit's barycentric weights. So a link
-// is one number, and radiosity is interpolated linearly on the average.
+// is one number of 4 bytes and its factor 1 / rays, and radiosity is interpolated linearly on the average.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +14,6 @@
 #include "radiosity/receiver.h"
 #include "radiosity/tracer.h"
 #include "scene/scene.h"
-#include "scene/welded.h"
 #include "surface/surface.h"
 
 namespace radvor {
@@ -38,30 +34,23 @@ class Gather {
   std::uint32_t add(std::uint32_t count);
   std::uint32_t size() const { return static_cast<std::uint32_t>(records_.size()); }
 
-  /// Casts ray_count (a power of two, at most 2^14) rays. Different records may be traced side by side.
+  /// Casts ray_count (a power of two) rays. Different records may be traced side by side.
   void trace(std::uint32_t record, const Receiver& receiver, std::uint32_t ray_count, std::uint64_t seed,
-             Tracer& tracer);
+             const Surface& surface, Tracer& tracer);
 
   const Outlook& outlook(std::uint32_t record) const { return records_[record].outlook; }
 
-  /// Finds the shares that a record's hits fall on; different records may be settled side by side. The surface must
-  /// not change from then on.
-  void settle(std::uint32_t record, const Surface& surface);
+  /// After the surface has numbered its shares anew: `now` is the new number of each old one.
+  void renumber(std::span<const std::uint32_t> now);
 
   /// Irradiance from all that the record's links shoot. radiosity: one a share, W m^-2.
   Color gather(std::uint32_t record, std::span<const glm::vec3> radiosity) const;
 
  private:
-  struct Hit {
-    std::uint32_t facet_and_side;  // twice the facet, plus one where the back was hit
-    float u, v;                    // in the facet's plane
-  };
   struct Record {
-    explicit Record(std::pmr::memory_resource* memory) : hits(memory), links(memory) {}
+    explicit Record(std::pmr::memory_resource* memory) : links(memory) {}
     Outlook outlook;
-    double weight = 0;  // of one hit
-    std::uint64_t seed = 0;
-    std::pmr::vector<Hit> hits;
+    double weight = 0;  // of one link
     std::pmr::vector<std::uint32_t> links;
   };
 

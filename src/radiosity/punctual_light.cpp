@@ -14,7 +14,7 @@ namespace {
 // max(0, n . w) / (axis . w) * visible(w): what a uniform disk delivers relative to its irradiance on a facing surface.
 // 16 points and 8 of the rim first; where they disagree, 256.
 double visible_cosine_of_disk(const Receiver& receiver, const Vec3& axis, double sin_radius, double distance,
-                              double source_radius, Tracer& tracer) {
+                              double source_radius, Tracer& tracer, Sight& sight) {
   const Basis basis(axis);
   const auto sample = [&](int points, int rim, bool& mixed) {
     std::array<Vec3, 256> targets;
@@ -51,6 +51,7 @@ double visible_cosine_of_disk(const Receiver& receiver, const Vec3& axis, double
       seen += blocked[k] ? 0 : weights[k];
     }
     mixed = hidden != 0 && hidden != count;
+    sight.add({hidden != count, hidden != 0});
     // Wholly above the horizon the disk's mean is that of its centre, exactly: the points only say what is seen of it.
     const double cosine = glm::dot(receiver.normal, axis);
     return cosine >= sin_radius && all > 0 ? cosine * seen / all : seen;
@@ -61,14 +62,14 @@ double visible_cosine_of_disk(const Receiver& receiver, const Vec3& axis, double
 }
 
 double visible_cosine(const Receiver& receiver, const Vec3& axis, double sin_radius, double distance,
-                      double source_radius, Tracer& tracer) {
+                      double source_radius, Tracer& tracer, Sight& sight) {
   const double cosine = glm::dot(receiver.normal, axis);
   if (cosine <= -sin_radius) {
     ++tracer.counters.skipped_facing;
     return 0;
   }
   if (sin_radius > 0) {
-    return visible_cosine_of_disk(receiver, axis, sin_radius, distance, source_radius, tracer);
+    return visible_cosine_of_disk(receiver, axis, sin_radius, distance, source_radius, tracer, sight);
   }
   if (cosine <= 0) {
     ++tracer.counters.skipped_facing;
@@ -77,6 +78,7 @@ double visible_cosine(const Receiver& receiver, const Vec3& axis, double sin_rad
   const Vec3 target = receiver.lifted + axis * distance;
   std::uint8_t blocked = 0;
   tracer.blocked_from(receiver.lifted, std::span(&target, 1), &blocked);
+  sight = {blocked == 0, blocked != 0};
   return blocked ? 0 : cosine;
 }
 
@@ -90,10 +92,11 @@ double spot_falloff(const Light& light, const Vec3& to_receiver) {
 
 }  // namespace
 
-Color irradiance_of_punctual_light(const Light& light, const Receiver& receiver, Tracer& tracer, double far) {
+Color irradiance_of_punctual_light(const Light& light, const Receiver& receiver, Tracer& tracer, double far,
+                                   Sight& sight) {
   if (light.type == LightType::directional) {
     const double sin_radius = std::sin(std::min(light.angle / 2, 1.5));
-    return light.color * visible_cosine(receiver, -light.direction, sin_radius, far, 0, tracer);
+    return light.color * visible_cosine(receiver, -light.direction, sin_radius, far, 0, tracer, sight);
   }
   const Vec3 apart = light.position - receiver.point;
   const double distance = glm::length(apart);
@@ -107,8 +110,8 @@ Color irradiance_of_punctual_light(const Light& light, const Receiver& receiver,
     return Color(0.0);
   }
   const double sin_radius = light.radius / distance;
-  return light.color *
-         (falloff / (distance * distance) * visible_cosine(receiver, axis, sin_radius, distance, light.radius, tracer));
+  return light.color * (falloff / (distance * distance) *
+                        visible_cosine(receiver, axis, sin_radius, distance, light.radius, tracer, sight));
 }
 
 }  // namespace radvor

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "radiosity/receiver.h"
+#include "radiosity/sight.h"
 #include "radiosity/tracer.h"
 #include "scene/scene.h"
 
@@ -11,6 +12,7 @@ namespace radvor {
 /// of the luminous sphere where its radius is not 0; spots fall off between the two angles as in KHR_lights_punctual
 /// (clamp(cos * scale + offset)^2). Directional: color * cos, times the visible share of the sun's disk.
 /// far: a length that leads out of the scene from anywhere in it.
-Color irradiance_of_punctual_light(const Light& light, const Receiver& receiver, Tracer& tracer, double far);
+Color irradiance_of_punctual_light(const Light& light, const Receiver& receiver, Tracer& tracer, double far,
+                                   Sight& sight);
 
 }  // namespace radvor

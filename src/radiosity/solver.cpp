@@ -9,6 +9,7 @@
 #include "base/hash.h"
 #include "radiosity/fate.h"
 #include "radiosity/links.h"
+#include "radiosity/refinement_plan.h"
 #include "radiosity/shooting_tree.h"
 #include "scene/find_contacts.h"
 
@@ -24,11 +25,17 @@ constexpr double k_pi = 3.14159265358979323846;
 // room of few patches none stands out, and links make every later bounce cheaper than one such shot.
 constexpr double k_stands_out = 0.02;
 constexpr double k_times_even_share = 16;
+constexpr double k_share_of_mesh = 0.5;  // of the tolerance: what the mesh may get wrong of direct light
+constexpr double k_local = 5;            // tolerances that a place may be off relative to its own light
+constexpr double k_reach = 3;            // times the root of the tolerance: how far light is taken, over what is near
+constexpr double k_same_way = 0.95;      // cosine between normals of which one may take the other's light
 constexpr double k_share_left_unshot = 0.1;  // of the tolerance: may be missing when the bake has converged
 
 double sum(const Color& color) {
   return color.r + color.g + color.b;
 }
+
+constexpr SampleOrigin k_unanchored = {{k_none, k_none, k_none}, {0, 0, 0}, false};
 
 // Rays of one receiver's hemisphere: a power of two, so that they are a net.
 std::uint32_t rays_for(double tolerance) {
@@ -46,7 +53,13 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
       occluders_(&host.memory),
       visibility_(nullptr, Unmake{maker, host}),
       receivers_(&host.memory),
+      sights_(&host.memory),
+      anchors_(&host.memory),
       records_(&host.memory),
+      outlooks_(&host.memory),
+      first_bounce_(&host.memory),
+      pending_(&host.memory),
+      interpolated_(&host.memory),
       unshot_(&host.memory),
       radiosity_(&host.memory),
       incoming_(&host.memory),
@@ -77,13 +90,16 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
   const auto samples = surface->samples();
   direct.assign(samples.size(), Color(0.0));
   indirect.assign(samples.size(), Color(0.0));
+  sights_.assign(samples.size(), 0);
+  anchors_.assign(samples.size(), k_unanchored);
   visibility_.reset(maker.make(maker.user, {welded->positions, corners}, host));
-  for (const Sample& sample : samples) {
-    receivers_.push_back({sample.point, sample.point + sample.facet_normal * visibility_->lift(), sample.normal});
-  }
-  std::pmr::vector<std::uint32_t> all(samples.size(), &host.memory);
-  std::iota(all.begin(), all.end(), 0u);
-  blocks_.emplace(*surface, receivers_, all, host);
+  place_receivers();
+  records_.assign(samples.size(), k_none);
+  outlooks_.assign(samples.size(), Outlook{});
+  first_bounce_.assign(samples.size(), Color(0.0));
+  pending_.resize(samples.size());
+  std::iota(pending_.begin(), pending_.end(), 0u);
+  blocks_.emplace(*surface, receivers_, pending_, host);
   hemispheres_.emplace(scene, *facets, occluders_, host);
   stats_.seconds_setup = std::chrono::duration<double>(Clock::now() - begin).count();
   seconds = stats_.seconds_setup;
@@ -93,6 +109,9 @@ void Solver::step() {
   switch (stage_) {
     case Stage::direct:
       shine();
+      break;
+    case Stage::refinement:
+      refine();
       break;
     case Stage::hemispheres:
       look_around();
@@ -105,6 +124,9 @@ void Solver::step() {
       break;
     case Stage::bounces:
       bounce();
+      break;
+    case Stage::finish:
+      finish();
       break;
     case Stage::done:
       break;
@@ -137,44 +159,251 @@ std::uint32_t Solver::next_blocks(std::uint32_t per_thread) const {
   return std::min(blocks_->count(), block_ + per_thread * host.jobs.thread_count());
 }
 
+void Solver::place_receivers() {
+  receivers_.clear();
+  receivers_.reserve(surface->samples().size());
+  for (const Sample& sample : surface->samples()) {
+    receivers_.push_back({sample.point, sample.point + sample.facet_normal * visibility_->lift(), sample.normal});
+  }
+}
+
 // Direct light of one source on some blocks of receivers.
 void Solver::shine() {
   if (source_ == light_->source_count()) {
-    const bool needed = (options.disable & Disable::indirect) == 0 || sum(light_->sky_radiance()) > 0;
-    stage_ = needed ? Stage::hemispheres : Stage::account;
+    stage_ = looking_ ? Stage::hemispheres : Stage::refinement;
     return;
   }
   const std::uint32_t end = next_blocks(4);
   over_blocks(block_, end, [&](std::uint32_t sample, Tracer& tracer) {
-    direct[sample] += light_->irradiance(source_, receivers_[sample], tracer);
+    Sight sight;
+    direct[sample] += light_->irradiance(source_, receivers_[sample], tracer, sight);
+    sights_[sample] = with_sight(sights_[sample], sight);
   });
   block_ = end;
-  if (block_ == blocks_->count()) {
+  if (block_ >= blocks_->count()) {
     block_ = 0;
     ++source_;
     ++stats_.shots;
   }
 }
 
-// What some blocks of receivers see of their hemispheres.
+// Raises the mesh's level where the light so far demands it; the new samples' light is next. Where it demands nothing
+// more, the next kind of light is due.
+void Solver::refine() {
+  std::pmr::vector<Color> light(direct, &host.memory);
+  double received = 0, area = 0;
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    light[i] += first_bounce_[i];
+    received += surface->samples()[i].area * sum(light[i]) / 3;
+    area += surface->samples()[i].area;
+  }
+  const auto site_count = static_cast<std::uint32_t>(surface->sites().size());
+  const std::uint32_t most = options.spacing.max_sites;
+  const bool may =
+      options.spacing.refines && received > 0 && (most == 0 || site_count < most) && round_ < 2 * surface->max_level();
+  if (may) {
+    const RefinementGoal goal{k_share_of_mesh * options.tolerance, k_local * options.tolerance, received / area,
+                              site_count};
+    const auto raised = plan_refinement(*surface, {light, sights_}, goal, host);
+    if (!raised.empty()) {
+      const std::pmr::vector<Share> before(surface->shares().begin(), surface->shares().end(), &host.memory);
+      const auto origins = surface->refine(raised, most);
+      follow(before, origins);
+    }
+    if (!raised.empty() && !pending_.empty()) {
+      ++round_;
+      source_ = 0;
+      stage_ = Stage::direct;
+      return;
+    }
+  }
+  if (looking_) {
+    stage_ = Stage::account;
+    return;
+  }
+  looking_ = true;
+  round_ = 0;
+  pending_.resize(direct.size());
+  std::iota(pending_.begin(), pending_.end(), 0u);
+  stage_ = Stage::hemispheres;
+}
+
+namespace {
+
+template <class Value>
+void renumber(std::pmr::vector<Value>& values, std::span<const SampleOrigin> origins, const Value& unknown) {
+  std::pmr::vector<Value> now(origins.size(), unknown, values.get_allocator());
+  for (std::size_t i = 0; i < origins.size(); ++i) {
+    if (origins[i].kept) {
+      now[i] = values[origins[i].samples[0]];
+    }
+  }
+  values.swap(now);
+}
+
+}  // namespace
+
+// Renumbers what is known of samples and shares after a refinement; new samples are pending.
+void Solver::follow(std::span<const Share> before, std::span<const SampleOrigin> origins) {
+  std::pmr::memory_resource* memory = &host.memory;
+  std::pmr::vector<std::uint32_t> now(direct.size(), k_none, memory);
+  pending_.clear();
+  for (std::uint32_t i = 0; i < origins.size(); ++i) {
+    if (origins[i].kept) {
+      now[origins[i].samples[0]] = i;
+    } else {
+      pending_.push_back(i);
+    }
+  }
+  renumber(anchors_, origins, k_unanchored);
+  for (const std::uint32_t sample : pending_) {
+    anchors_[sample] = origins[sample];
+  }
+  for (SampleOrigin& anchor : anchors_) {
+    bool all = anchor.samples[0] != k_none;
+    for (std::size_t k = 0; all && k < 3; ++k) {
+      anchor.samples[k] = now[anchor.samples[k]];
+      all = anchor.samples[k] != k_none;
+    }
+    if (!all) {
+      anchor = k_unanchored;
+    }
+  }
+  renumber(direct, origins, Color(0.0));
+  renumber(sights_, origins, std::uint64_t{0});
+  renumber(records_, origins, k_none);
+  renumber(outlooks_, origins, Outlook{});
+  renumber(first_bounce_, origins, Color(0.0));
+  for (std::uint32_t& sample : interpolated_) {
+    sample = now[sample];
+  }
+  indirect.assign(origins.size(), Color(0.0));
+
+  // A share lives on in its facet's part of its sample.
+  const auto shares = surface->shares();
+  const auto samples = surface->samples();
+  std::pmr::vector<std::uint32_t> share_now(before.size(), k_none, memory);
+  for (std::size_t s = 0; s < before.size(); ++s) {
+    std::uint32_t share = samples[now[before[s].sample]].first_share;
+    while (shares[share].next_in_sample != k_none &&
+           (shares[share].facet != before[s].facet || shares[share].back != before[s].back)) {
+      share = shares[share].next_in_sample;
+    }
+    share_now[s] = share;
+  }
+  hemispheres_->renumber(share_now);
+  place_receivers();
+  blocks_.emplace(*surface, receivers_, pending_, host);
+}
+
+// Which pending samples of a level look around by themselves; the others take from their anchors. After Ward et al., A
+// ray tracing solution for diffuse interreflection (1988): light from all around changes over the distance of what is
+// seen.
+void Solver::begin_level() {
+  const auto samples = surface->samples();
+  const auto sites = surface->sites();
+  const bool lazy = (options.disable & Disable::lazy) == 0;
+  const double most = k_reach * std::sqrt(options.tolerance);
+  std::pmr::vector<std::uint32_t> looking(&host.memory);
+  for (const std::uint32_t i : pending_) {
+    if (sites[samples[i].site].level != level_) {
+      continue;
+    }
+    const SampleOrigin& anchor = anchors_[i];
+    bool looks = !lazy || anchor.samples[0] == k_none;
+    for (std::size_t k = 0; !looks && k < 3; ++k) {
+      const std::uint32_t other = anchor.samples[k];
+      if (anchor.weights[k] > 0) {
+        const double nearness = outlooks_[other].inverse_distance;
+        looks = glm::distance(receivers_[i].point, receivers_[other].point) * nearness > most ||
+                glm::dot(samples[i].normal, samples[other].normal) < k_same_way;
+      }
+    }
+    if (looks) {
+      looking.push_back(i);
+      continue;
+    }
+    Outlook& own = outlooks_[i];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Outlook& other = outlooks_[anchor.samples[k]];
+      const double weight = anchor.weights[k];
+      own.open += weight * other.open;
+      own.backs += weight * other.backs;
+      own.inverse_distance += weight * other.inverse_distance;
+    }
+    interpolated_.push_back(i);
+    ++stats_.skipped_lazy;
+  }
+  std::uint32_t record = hemispheres_->add(static_cast<std::uint32_t>(looking.size()));
+  for (const std::uint32_t sample : looking) {
+    records_[sample] = record++;
+  }
+  blocks_.emplace(*surface, receivers_, looking, host);
+}
+
+// What some blocks of pending receivers see of their hemispheres.
 void Solver::look_around() {
+  if ((options.disable & Disable::indirect) != 0 && sum(light_->sky_radiance()) <= 0) {
+    stage_ = Stage::account;
+    return;
+  }
   if (block_ == 0) {
-    records_.resize(receivers_.size());
-    std::iota(records_.begin(), records_.end(), hemispheres_->add(static_cast<std::uint32_t>(receivers_.size())));
+    begin_level();
   }
   const std::uint32_t rays = rays_for(options.tolerance);
-  const Color sky = k_pi * light_->sky_radiance();
   const std::uint32_t end = next_blocks(4);
   over_blocks(block_, end, [&](std::uint32_t sample, Tracer& tracer) {
     const std::uint32_t record = records_[sample];
-    hemispheres_->trace(record, receivers_[sample], rays, hash(options.seed, record), tracer);
-    hemispheres_->settle(record, *surface);
-    direct[sample] += hemispheres_->outlook(record).open * sky;
+    hemispheres_->trace(record, receivers_[sample], rays, hash(options.seed, record), *surface, tracer);
+    outlooks_[sample] = hemispheres_->outlook(record);
   });
   block_ = end;
-  if (block_ == blocks_->count()) {
-    block_ = 0;
-    stage_ = Stage::account;
+  if (block_ < blocks_->count()) {
+    return;
+  }
+  block_ = 0;
+  if (++level_ <= surface->max_level()) {
+    return;
+  }
+  level_ = 0;
+  const Color sky = k_pi * light_->sky_radiance();
+  for (const std::uint32_t i : pending_) {
+    direct[i] += outlooks_[i].open * sky;
+  }
+  if ((options.disable & Disable::indirect) == 0) {
+    see_first_bounce();
+  }
+  stage_ = Stage::refinement;
+}
+
+// What pending samples get by one reflection of direct light.
+void Solver::see_first_bounce() {
+  const auto shares = surface->shares();
+  radiosity_.resize(shares.size());
+  for (std::size_t s = 0; s < shares.size(); ++s) {
+    radiosity_[s] = glm::vec3(shares[s].albedo * direct[shares[s].sample]);
+  }
+  constexpr std::uint32_t k_block = 256;
+  const auto count = static_cast<std::uint32_t>(pending_.size());
+  host.jobs.for_each((count + k_block - 1) / k_block, [&](std::uint32_t block) {
+    for (std::uint32_t k = block * k_block; k < std::min(count, (block + 1) * k_block); ++k) {
+      if (records_[pending_[k]] != k_none) {
+        first_bounce_[pending_[k]] = hemispheres_->gather(records_[pending_[k]], radiosity_);
+      }
+    }
+  });
+  interpolate(interpolated_, first_bounce_);
+}
+
+// Values of samples without a record from those of their anchors.
+void Solver::interpolate(std::span<const std::uint32_t> list, std::pmr::vector<Color>& values) const {
+  for (const std::uint32_t sample : list) {
+    const SampleOrigin& anchor = anchors_[sample];
+    Color value(0.0);
+    for (std::size_t k = 0; k < 3; ++k) {
+      value += static_cast<double>(anchor.weights[k]) * values[anchor.samples[k]];
+    }
+    values[sample] = value;
   }
 }
 
@@ -192,10 +421,17 @@ void Solver::account() {
     unshot_.push_back(direct[share.sample]);
   }
   incoming_.assign(receivers_.size(), Color(0.0));
+  pending_.clear();
+  for (std::uint32_t i = 0; i < records_.size(); ++i) {
+    if (records_[i] != k_none) {
+      pending_.push_back(i);
+    }
+  }
+  blocks_.emplace(*surface, receivers_, pending_, host);
   radiosity_.assign(shares.size(), glm::vec3(0.0f));
   first_unshot_ = previous_unshot_ = unshot_luminance();
   if ((options.disable & Disable::indirect) != 0 || first_unshot_ <= 0) {
-    stage_ = Stage::done;
+    stage_ = Stage::finish;
     return;
   }
   stood_out_.assign(surface->patch_count(), 0);
@@ -252,8 +488,11 @@ void Solver::shoot_standout() {
     for (const Link& link : links) {
       incoming_[sample] += sent_along(link, light);
     }
-    indirect[sample] += incoming_[sample];
   });
+  interpolate(interpolated_, incoming_);
+  for (std::size_t i = 0; i < incoming_.size(); ++i) {
+    indirect[i] += incoming_[i];
+  }
   for (std::size_t s = 0; s < shares.size(); ++s) {
     unshot_[s] += incoming_[shares[s].sample];
   }
@@ -263,7 +502,7 @@ void Solver::shoot_standout() {
 // What does not come back of a share's shot.
 void Solver::lose(std::uint32_t share, const Color& radiosity) {
   const Share& shot = surface->shares()[share];
-  const Outlook& outlook = hemispheres_->outlook(records_[shot.sample]);
+  const Outlook& outlook = outlooks_[shot.sample];
   stats_.escaped_power += shot.area * sum(radiosity) * outlook.open;
   stats_.absorbed_back_power += shot.area * sum(radiosity) * outlook.backs;
 }
@@ -295,24 +534,43 @@ bool Solver::begin_bounce() {
 // All shares together, on some blocks of receivers.
 void Solver::bounce() {
   if (block_ == 0 && !begin_bounce()) {
-    stage_ = Stage::done;
+    stage_ = Stage::finish;
     return;
   }
   const std::uint32_t end = next_blocks(256);
   over_blocks(block_, end, [&](std::uint32_t sample, Tracer&) {
     incoming_[sample] = hemispheres_->gather(records_[sample], radiosity_);
-    indirect[sample] += incoming_[sample];
   });
   block_ = end;
-  if (block_ == blocks_->count()) {
+  if (block_ >= blocks_->count()) {
     block_ = 0;
     ++bounces_;
+    interpolate(interpolated_, incoming_);
+    for (std::size_t i = 0; i < incoming_.size(); ++i) {
+      indirect[i] += incoming_[i];
+    }
     const auto shares = surface->shares();
     for (std::size_t s = 0; s < shares.size(); ++s) {
       unshot_[s] = incoming_[shares[s].sample];
     }
     stats_.shots += surface->patch_count();
   }
+}
+
+// Where the triangulation is free its edges follow the light.
+void Solver::finish() {
+  stage_ = Stage::done;
+  if ((options.disable & Disable::tie_alignment) != 0) {
+    return;
+  }
+  std::pmr::vector<double> values(&host.memory);
+  values.reserve(direct.size());
+  for (std::size_t i = 0; i < direct.size(); ++i) {
+    values.push_back(luminance(direct[i] + indirect[i]));
+  }
+  const Ties ties = surface->align_ties(values, options.tie_tolerance);
+  stats_.ties = ties.count;
+  stats_.realigned_ties = ties.realigned;
 }
 
 // Half of the way is direct light, a quarter the hemispheres; the rest is the logarithm of what is left.
@@ -322,6 +580,9 @@ void Solver::report_convergence() {
   switch (stage_) {
     case Stage::direct:
       now = 0.4 * (source_ + part) / std::max(1u, light_->source_count());
+      break;
+    case Stage::refinement:
+      now = 0.4;
       break;
     case Stage::hemispheres:
       now = 0.4 + 0.4 * part;
@@ -336,6 +597,9 @@ void Solver::report_convergence() {
       now = 0.8 + 0.2 * std::clamp(made / goal, 0.0, 0.99);
       break;
     }
+    case Stage::finish:
+      now = 0.999;
+      break;
     case Stage::done:
       now = 1;
       break;

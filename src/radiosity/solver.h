@@ -1,7 +1,12 @@
 // The state of a bake and the steps of its loop. Each step is a unit of work whose order is fixed, small enough for a
 // time slice.
 //
-//   direct -> hemispheres -> account -> standouts -> bounces -> done
+//   direct <-> refinement -> (hemispheres -> refinement -> direct)* -> account -> standouts -> bounces -> finish
+//
+// Light of sources that have a place or a direction is exact at every sample, and the mesh follows it, level by level.
+// Then samples look around for sky and the other surfaces. What comes from all around is smooth but near other
+// surfaces: finer samples take it from the coarser ones that they lie between, unless something is near. The mesh
+// follows again.
 #pragma once
 
 #include <chrono>
@@ -25,7 +30,7 @@ class Solver {
  public:
   Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& maker, Host& lender);
 
-  enum class Stage { direct, hemispheres, account, standouts, bounces, done };
+  enum class Stage { direct, refinement, hemispheres, account, standouts, bounces, finish, done };
   Stage stage() const { return stage_; }
   void step();
 
@@ -45,17 +50,24 @@ class Solver {
 
  private:
   void shine();
+  void refine();
+  void follow(std::span<const Share> before, std::span<const SampleOrigin> origins);
+  void begin_level();
   void look_around();
+  void see_first_bounce();
+  void interpolate(std::span<const std::uint32_t> samples, std::pmr::vector<Color>& values) const;
   void account();
   void shoot_standout();
   void lose(std::uint32_t share, const Color& radiosity);
   bool begin_bounce();
   void bounce();
+  void finish();
 
   template <class Work>
   void over_blocks(std::uint32_t begin, std::uint32_t end, Work&& work);
   std::uint32_t next_blocks(std::uint32_t per_thread) const;
   double unshot_luminance() const;
+  void place_receivers();
   void report_convergence();
 
   std::pmr::vector<std::uint32_t> occluders_;  // welded triangle of each triangle that blocks
@@ -71,14 +83,23 @@ class Solver {
 
   std::pmr::vector<Receiver> receivers_;
   std::optional<ReceiverBlocks> blocks_;
-  std::pmr::vector<std::uint32_t> records_;   // of each sample, in hemispheres_
-  std::pmr::vector<Color> unshot_;            // irradiance that each share has not reflected yet
-  std::pmr::vector<glm::vec3> radiosity_;     // of each share: what is being shot
-  std::pmr::vector<Color> incoming_;          // irradiance of the bounce under way, each sample
-  std::pmr::vector<std::uint8_t> stood_out_;  // patches that have shot by themselves
+  std::pmr::vector<std::uint64_t> sights_;        // of each sample: what it sees of the sources
+  std::pmr::vector<SampleOrigin> anchors_;        // of each sample that refinement made: the samples it lies between
+  std::pmr::vector<std::uint32_t> records_;       // of each sample, in hemispheres_; k_none: takes it from its anchors
+  std::pmr::vector<Outlook> outlooks_;            // of each sample
+  std::pmr::vector<Color> first_bounce_;          // irradiance of each sample, for the mesh to follow
+  std::pmr::vector<std::uint32_t> pending_;       // samples whose light is under way
+  std::pmr::vector<std::uint32_t> interpolated_;  // samples without a record, anchors first
+  std::pmr::vector<Color> unshot_;                // irradiance that each share has not reflected yet
+  std::pmr::vector<glm::vec3> radiosity_;         // of each share: what is being shot
+  std::pmr::vector<Color> incoming_;              // irradiance of the bounce under way, each sample
+  std::pmr::vector<std::uint8_t> stood_out_;      // patches that have shot by themselves
 
   Stage stage_ = Stage::direct;
   std::uint32_t source_ = 0;  // of the direct stage
+  std::uint32_t round_ = 0;   // of refinement
+  bool looking_ = false;      // around: direct light alone has its mesh
+  std::uint32_t level_ = 0;   // of the hemispheres
   std::uint32_t block_ = 0;   // next block of what is under way
   std::uint32_t bounces_ = 0;
   double previous_unshot_ = 0, first_unshot_ = 0;

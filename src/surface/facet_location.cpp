@@ -58,8 +58,16 @@ std::size_t LocatedFacet::best_triangle(const Vec2& point) const {
 }
 
 FacetPoint LocatedFacet::locate(const Vec2& point) const {
+  FacetPoint rough;
+  if (mesh && !mesh->ties_are_aligned()) {
+    const std::uint32_t found = mesh->locate_roughly(point, rough.weights);
+    if (found != k_none) {
+      rough.shares = triangles[found];
+      return rough;
+    }
+  }
   std::size_t best = mesh ? mesh->locate(point) : best_triangle(point);
-  if (mesh) {
+  if (mesh && mesh->ties_are_aligned()) {
     const auto first = static_cast<std::uint32_t>(best);
     double deepest = depth_inside(corners(triangles[first]), point);
     for (std::uint32_t k = mesh->next_in_polygon(first); k != first; k = mesh->next_in_polygon(k)) {

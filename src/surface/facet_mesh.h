@@ -57,6 +57,8 @@ class FacetMesh {
   /// delaunay/tie_polygon.h.
   Ties align_ties(std::span<const double> value_of, double tolerance, std::pmr::memory_resource* memory);
 
+  bool ties_are_aligned() const { return !next_in_polygon_.empty(); }
+
   /// Another triangle of the same polygon of ties, and so on round to the first; itself where there is none.
   std::uint32_t next_in_polygon(std::uint32_t triangle) const {
     return next_in_polygon_.empty() ? triangle : next_in_polygon_[triangle];
@@ -67,6 +69,11 @@ class FacetMesh {
 
   /// The triangle at a point of the facet's plane, or the nearest where it is beside all: an index into triangles().
   std::uint32_t locate(const Vec2& point) const;
+  /// As locate, and fast, with weights of the corners; k_none where it cannot tell. Before ties are aligned.
+  std::uint32_t locate_roughly(const Vec2& point, std::array<double, 3>& weights) const {
+    const delaunay::TriangleId found = delaunay_->locate_roughly(point, weights);
+    return found == delaunay::k_none ? k_none : index_of_triangle_[found];
+  }
 
  private:
   friend class FacetTriangulator;

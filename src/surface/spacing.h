@@ -8,7 +8,7 @@
 namespace radvor {
 
 /// Whether sites are added where light demands them, unless the host turns it off: not before light asks for them.
-inline constexpr bool k_refines_by_default = false;
+inline constexpr bool k_refines_by_default = true;
 
 /// What the host may say about density; 0 leaves it open.
 struct SpacingRequest {

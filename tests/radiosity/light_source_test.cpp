@@ -15,7 +15,8 @@ constexpr double k_pi = 3.14159265358979323846;
 
 double shine(const Light& light, const Receiver& receiver, const Visibility& visibility) {
   Tracer tracer(visibility);
-  return irradiance_of_punctual_light(light, receiver, tracer, 1000).r;
+  Sight sight;
+  return irradiance_of_punctual_light(light, receiver, tracer, 1000, sight).r;
 }
 
 // Two triangles that make up the quadrilateral a, b, c, d and emit radiosity 1.
@@ -34,8 +35,9 @@ double glow(const std::vector<Emitter>& emitters, const Receiver& receiver, cons
   const OccluderTree occluders({plates.positions, plates.corners}, std::pmr::get_default_resource());
   Tracer tracer(visibility);
   double sum = 0;
+  Sight sight;
   for (const Emitter& emitter : emitters) {
-    sum += irradiance_of_emitter(emitter, receiver, tracer, accuracy, &occluders).r;
+    sum += irradiance_of_emitter(emitter, receiver, tracer, accuracy, &occluders, sight).r;
   }
   return sum;
 }

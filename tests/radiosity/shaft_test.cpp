@@ -342,9 +342,10 @@ double irradiance(const Polygon& light, const Vec3& x, const Plates& plates, Tra
   EmitterAccuracy accuracy;
   accuracy.mean_irradiance = 0.05;
   double sum = 0;
+  Sight sight;
   for (const Corners& corners : {Corners{light[0], light[1], light[2]}, Corners{light[0], light[2], light[3]}}) {
     const Emitter emitter{corners, k_down, Color(1.0), 0.5};
-    sum += irradiance_of_emitter(emitter, receiver_at(x, k_up, visibility), tracer, accuracy, &tree).r;
+    sum += irradiance_of_emitter(emitter, receiver_at(x, k_up, visibility), tracer, accuracy, &tree, sight).r;
   }
   counters += tracer.counters;
   return sum;
@@ -385,9 +386,10 @@ TEST(ExactEmitter, CutByTheHorizonBeforeWhatLiesUnderIt) {
   const BruteForceVisibility visibility = floor.visibility();
   Tracer tracer(visibility);
   double sum = 0;
+  Sight sight;
   for (const Corners& corners : {Corners{wall[0], wall[1], wall[2]}, Corners{wall[0], wall[2], wall[3]}}) {
     const Emitter emitter{corners, towards, Color(1.0), 2};
-    sum += irradiance_of_emitter(emitter, receiver_at({0, 0, 0}, k_up, visibility), tracer, {}, &tree).r;
+    sum += irradiance_of_emitter(emitter, receiver_at({0, 0, 0}, k_up, visibility), tracer, {}, &tree, sight).r;
   }
   EXPECT_NEAR(sum, polygon_form_factor({0, 0, 0}, k_up, upper, towards), 1e-12);
   EXPECT_EQ(tracer.counters.skipped_clear, 2);
