@@ -63,6 +63,7 @@ Scene copy_scene(const Scene& scene, std::pmr::memory_resource* memory) {
     copy_into(to.uvs, mesh.uvs);
     copy_into(to.indices, mesh.indices);
     copy_into(to.triangle_materials, mesh.triangle_materials);
+    copy_into(to.sites, mesh.sites);
     to.transform = mesh.transform;
     to.receives = mesh.receives;
     to.casts = mesh.casts;

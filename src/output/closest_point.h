@@ -8,6 +8,7 @@
 
 #include "base/vector.h"
 #include "scene/box_tree.h"
+#include "scene/closest_weights.h"
 
 namespace radvor {
 
@@ -46,9 +47,5 @@ class ClosestPoints {
   std::span<const std::uint8_t> two_sided_;
   BoxTree tree_;
 };
-
-/// Barycentric coordinates of the point of a triangle nearest to p, degenerate triangles included (Ericson, Real-Time
-/// Collision Detection, 5.1.5).
-Vec3 closest_weights(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
 }  // namespace radvor

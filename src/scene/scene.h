@@ -23,7 +23,13 @@ inline constexpr Transform k_identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
 struct Mesh {
   explicit Mesh(std::pmr::memory_resource* memory)
-      : positions(memory), normals(memory), colors(memory), uvs(memory), indices(memory), triangle_materials(memory) {}
+      : positions(memory),
+        normals(memory),
+        colors(memory),
+        uvs(memory),
+        indices(memory),
+        triangle_materials(memory),
+        sites(memory) {}
 
   std::pmr::vector<glm::vec3> positions;               ///< object space, finite
   std::pmr::vector<glm::vec3> normals;                 ///< object space, as given; empty: none
@@ -31,6 +37,7 @@ struct Mesh {
   std::pmr::vector<glm::vec2> uvs;                     ///< empty: none
   std::pmr::vector<std::uint32_t> indices;             ///< 3 a triangle, wound as given
   std::pmr::vector<std::uint32_t> triangle_materials;  ///< 1 a triangle, always filled
+  std::pmr::vector<Vec3> sites;                        ///< wanted by the host: world space, on it but for rounding
   Transform transform = k_identity;                    ///< invertible or not: a flattened mesh has zero-area triangles
   bool receives = true;                                ///< not RADVOR_MESH_NO_RECEIVE
   bool casts = true;                                   ///< not RADVOR_MESH_NO_CAST

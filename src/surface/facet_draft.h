@@ -21,7 +21,8 @@ namespace radvor {
 struct InnerSite {
   Vec2 position;  ///< exact
   std::uint32_t site;
-  bool is_centre;  ///< of a patch: it belongs to level 0 of the lattice and was there from the start
+  bool is_centre;  ///< of a patch: on level 0 of the lattice and there from the start, or given
+  bool on_lattice = true;
 };
 
 /// All that a facet's triangles are made from.
@@ -32,8 +33,9 @@ struct FacetInput {
   const SurfaceOptions& options;
   const BorderSites& borders;
   std::pmr::memory_resource* memory;
-  std::uint32_t index;  ///< of the facet
-  /// The sites inside; absent: those of the first elements' lattice, which are still to be found.
+  std::uint32_t index;                    ///< of the facet
+  std::span<const InnerSite> given = {};  ///< sites inside that the host wants: obstacles to the lattice
+  /// All sites inside, given ones too; absent: those of the first elements' lattice, which are still to be found.
   std::optional<std::span<const InnerSite>> inner = {};
 
   const Facet& facet() const { return facets.facets[index]; }

@@ -31,6 +31,10 @@ FacetLattice FacetGround::find_segments(const FacetInput& input) {
     }
     border_count_ = border ? static_cast<std::uint32_t>(segments_.size()) : border_count_;
   }
+  for (const InnerSite& given : input.given) {
+    segments_.push_back({given.position, given.position});
+    edges_.push_back(k_none);
+  }
   return {input.options.lattice, input.options.patch_spacing, 0.5 * (low_ + high_)};
 }
 

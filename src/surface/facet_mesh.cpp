@@ -17,7 +17,7 @@ FacetMesh::FacetMesh(const FacetInput& input, FacetDraft& draft)
 }
 
 bool FacetMesh::needed(const FacetInput& input) {
-  if (input.inner && !input.inner->empty()) {
+  if (!input.given.empty() || (input.inner && !input.inner->empty())) {
     return true;
   }
   const auto triangles = input.facets.triangles_of(input.index);

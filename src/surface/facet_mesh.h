@@ -35,8 +35,11 @@ class FacetMesh {
   /// Numbers for inner sites that were still to be found: site_of(k) of the k-th.
   template <class SiteOf>
   void number_sites(SiteOf&& site_of) {
+    std::size_t count = 0;
     for (std::size_t vertex = border_count_; vertex < sites_.size(); ++vertex) {
-      sites_[vertex] = site_of(vertex - border_count_);
+      if (sites_[vertex] == k_none) {
+        sites_[vertex] = site_of(count++);
+      }
     }
   }
 

@@ -44,6 +44,7 @@ FacetTriangulator::FacetTriangulator(const FacetInput& input, FacetMesh& mesh, F
       inner_(input.memory),
       walls_(input.memory),
       centres_(input.memory),
+      given_centres_(input.memory),
       share_at_(input.memory) {}
 
 bool FacetTriangulator::run() {
@@ -154,32 +155,43 @@ void FacetTriangulator::constrain_contact(delaunay::Triangulation& triangulation
 bool FacetTriangulator::insert_inner(delaunay::Triangulation& triangulation) {
   const FacetLattice& lattice =
       mesh_.lattice_.emplace(in_.options.lattice, in_.options.patch_spacing, 0.5 * (low_ + high_));
-  const std::uint32_t level = in_.options.element_levels;
   std::pmr::vector<Vec2> points(in_.memory);
-  if (in_.inner) {
-    points.reserve(in_.inner->size());
-    for (const InnerSite& inner : *in_.inner) {
-      points.push_back(inner.position);
-      mesh_.sites_.push_back(inner.site);
-      if (inner.is_centre) {
-        centres_.push_back(lattice.nearest(0, inner.position));
-      }
+  const std::span<const InnerSite> known = in_.inner ? *in_.inner : in_.given;
+  points.reserve(known.size());
+  for (const InnerSite& inner : known) {
+    points.push_back(inner.position);
+    mesh_.sites_.push_back(inner.site);
+    if (inner.is_centre && inner.on_lattice) {
+      centres_.push_back(lattice.nearest(0, inner.position));
+    } else if (inner.is_centre) {
+      given_centres_.push_back(inner.position);
     }
-  } else {
-    find_interior_sites(lattice, level, borders_, inner_, k_half_spacing * lattice.column(level), draft_.lattice,
-                        in_.memory);
-    points.reserve(draft_.lattice.size());
-    for (const LatticeIndex& index : draft_.lattice) {
-      points.push_back(lattice.point(level, index));
-      if (FacetLattice::coarsest_level(level, index) == 0) {
-        const std::int64_t step = std::int64_t{1} << level;
-        centres_.push_back({index.i / step, index.j / step});
-      }
-    }
-    mesh_.sites_.resize(mesh_.sites_.size() + points.size(), k_none);
+  }
+  if (!in_.inner) {
+    find_lattice_sites(lattice, points);
   }
   triangulation.insert_many(points, nullptr);  // numbered in the order given, unless two fall together
   return triangulation.vertex_count() == mesh_.sites_.size();
+}
+
+// Those of the first elements' level; they get their numbers later.
+void FacetTriangulator::find_lattice_sites(const FacetLattice& lattice, std::pmr::vector<Vec2>& points) {
+  const std::uint32_t level = in_.options.element_levels;
+  std::pmr::vector<Segment> obstacles(inner_, in_.memory);
+  for (const InnerSite& given : in_.given) {
+    obstacles.push_back({given.position, given.position});
+  }
+  find_interior_sites(lattice, level, borders_, obstacles, k_half_spacing * lattice.column(level), draft_.lattice,
+                      in_.memory);
+  points.reserve(points.size() + draft_.lattice.size());
+  const std::int64_t step = std::int64_t{1} << level;
+  for (const LatticeIndex& index : draft_.lattice) {
+    points.push_back(lattice.point(level, index));
+    if (FacetLattice::coarsest_level(level, index) == 0) {
+      centres_.push_back({index.i / step, index.j / step});
+    }
+  }
+  mesh_.sites_.resize(mesh_.sites_.size() + draft_.lattice.size(), k_none);
 }
 
 bool FacetTriangulator::find_shares(const delaunay::Triangulation& triangulation) {
@@ -265,7 +277,7 @@ void FacetTriangulator::find_patches() {
   if (in_.facet().area < k_least_patch * lattice.cell_area()) {
     return;
   }
-  const LatticePatches patches(lattice, centres_, walls_, in_.memory);
+  const LatticePatches patches(lattice, centres_, given_centres_, walls_, in_.memory);
   draft_.patch_count = patches.count();
   if (patches.count() > 0) {
     for (FacetShare& share : draft_.shares) {

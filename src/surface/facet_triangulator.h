@@ -26,6 +26,7 @@ class FacetTriangulator {
   bool insert_borders(delaunay::Triangulation& triangulation);
   static void constrain_contact(delaunay::Triangulation& triangulation, delaunay::VertexId a, delaunay::VertexId b);
   bool insert_inner(delaunay::Triangulation& triangulation);
+  void find_lattice_sites(const FacetLattice& lattice, std::pmr::vector<Vec2>& points);
   bool find_shares(const delaunay::Triangulation& triangulation);
   bool find_triangles(const delaunay::Triangulation& triangulation);
   bool find_sources(const delaunay::Triangulation& triangulation);
@@ -42,7 +43,8 @@ class FacetTriangulator {
   std::pmr::vector<Segment> borders_, inner_;       // outline edges: of the domain, and within it
   std::pmr::vector<Segment> walls_;                 // those that cells end at
   std::pmr::vector<LatticeIndex> centres_;          // of patches, on level 0
-  std::pmr::vector<std::uint32_t> share_at_;        // per half-edge: share of its origin, in its triangle
+  std::pmr::vector<Vec2> given_centres_;
+  std::pmr::vector<std::uint32_t> share_at_;  // per half-edge: share of its origin, in its triangle
   Vec2 low_{0.0}, high_{0.0};
 };
 

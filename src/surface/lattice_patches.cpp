@@ -22,22 +22,29 @@ struct Candidate {
   std::uint32_t patch;
 };
 
-// The candidates that matter: up to 25 lattice points lie within the reach.
+// The nearest candidates: up to 25 lattice points lie within the reach, and given ones come on top.
 class Nearest {
  public:
   void add(const Candidate& candidate) {
-    if (count_ < list_.size()) {
-      list_[count_++] = candidate;
+    if (count_ == list_.size()) {
+      if (before(list_.back(), candidate)) {
+        return;
+      }
+      --count_;
     }
+    std::uint32_t at = count_++;
+    for (; at > 0 && before(candidate, list_[at - 1]); --at) {
+      list_[at] = list_[at - 1];
+    }
+    list_[at] = candidate;
   }
-  std::span<const Candidate> sorted() {
-    std::sort(list_.begin(), list_.begin() + count_, [](const Candidate& a, const Candidate& b) {
-      return a.distance != b.distance ? a.distance < b.distance : a.patch < b.patch;
-    });
-    return {list_.data(), count_};
-  }
+  std::span<const Candidate> sorted() const { return {list_.data(), count_}; }
 
  private:
+  static bool before(const Candidate& a, const Candidate& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.patch < b.patch;
+  }
+
   std::array<Candidate, 25> list_;
   std::uint32_t count_ = 0;
 };
@@ -45,8 +52,12 @@ class Nearest {
 }  // namespace
 
 LatticePatches::LatticePatches(const FacetLattice& lattice, std::span<const LatticeIndex> centres,
-                               std::span<const Segment> walls, std::pmr::memory_resource* memory)
-    : lattice_(lattice), walls_(walls, lattice.column(0), memory), centres_(centres.begin(), centres.end(), memory) {
+                               std::span<const Vec2> given, std::span<const Segment> walls,
+                               std::pmr::memory_resource* memory)
+    : lattice_(lattice),
+      walls_(walls, lattice.column(0), memory),
+      centres_(centres.begin(), centres.end(), memory),
+      given_(given.begin(), given.end(), memory) {
   std::sort(centres_.begin(), centres_.end(), before);
 }
 
@@ -66,8 +77,15 @@ std::uint32_t LatticePatches::nearest(const Vec2& site, const Vec2& receiver) co
       }
     }
   }
+  for (std::size_t k = 0; k < given_.size(); ++k) {
+    const Vec2 offset = given_[k] - site;
+    const double distance = glm::dot(offset, offset);
+    if (distance <= reach * reach) {
+      found.add({distance, static_cast<std::uint32_t>(centres_.size() + k)});
+    }
+  }
   for (const Candidate& candidate : found.sorted()) {
-    if (!walls_.blocks(receiver, lattice_.point(0, centres_[candidate.patch]))) {
+    if (!walls_.blocks(receiver, position(candidate.patch))) {
       return candidate.patch;
     }
   }

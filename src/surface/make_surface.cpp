@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <atomic>
 
+#include "surface/facet_ground.h"
+#include "surface/given_sites.h"
 #include "surface/receiver_point.h"
 #include "surface/sample_origins.h"
 #include "surface/shading.h"
@@ -37,6 +39,7 @@ class SurfaceMaker {
 
   void make() {
     parts_.sites = parts_.borders.list();
+    take_given_sites();
     for (std::uint32_t facet = 0; facet < parts_.records.size(); ++facet) {
       const Facet& described = parts_.facets.facets[facet];
       if (parts_.scene.meshes[described.mesh].receives) {
@@ -75,6 +78,44 @@ class SurfaceMaker {
   }
 
  private:
+  // Those that the host gave become sites after the borders', each inside of its facet.
+  void take_given_sites() {
+    const std::pmr::vector<GivenSite> found =
+        find_given_sites(parts_.scene, parts_.welded, parts_.facets, parts_.memory);
+    if (found.empty()) {
+      return;
+    }
+    constexpr double k_clearance = 1.0 / 64;
+    const double clear = k_clearance * parts_.options.patch_spacing;
+    std::size_t next = 0;
+    for (std::uint32_t facet = 0; facet < parts_.facets.facets.size(); ++facet) {
+      parts_.first_given.push_back(static_cast<std::uint32_t>(parts_.given.size()));
+      if (next == found.size() || found[next].facet != facet) {
+        continue;
+      }
+      const FacetGround ground(
+          {parts_.scene, parts_.welded, parts_.facets, parts_.options, parts_.borders, parts_.memory, facet});
+      for (; next < found.size() && found[next].facet == facet; ++next) {
+        const Vec2& position = found[next].position;
+        bool is_clear = ground.encloses(position) && ground.clearance(position, 2 * clear) >= clear;
+        for (std::size_t k = parts_.first_given[facet]; k < parts_.given.size(); ++k) {
+          is_clear = is_clear && glm::distance(parts_.given[k].position, position) >= clear;
+        }
+        if (is_clear) {
+          parts_.given.push_back({position, static_cast<std::uint32_t>(parts_.sites.size()), true, false});
+          parts_.sites.emplace_back().position = parts_.facets.facets[facet].frame.to_world(position);
+          parts_.places.resize(parts_.sites.size());
+          parts_.places.back().facet = facet;
+        }
+      }
+    }
+    parts_.first_given.push_back(static_cast<std::uint32_t>(parts_.given.size()));
+    if (parts_.given.size() < found.size()) {
+      parts_.host.log(LogLevel::info, "%zu of %zu sites given are too near to borders or to others, and left out",
+                      found.size() - parts_.given.size(), found.size());
+    }
+  }
+
   // input_of(k): of facets_[k].
   template <class InputOf>
   void build_meshes(InputOf&& input_of) {

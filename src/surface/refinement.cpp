@@ -435,6 +435,9 @@ void Refinement::settle(std::uint32_t facet, std::uint8_t level, const Vec2& low
       need(site, level);
     }
   };
+  for (const InnerSite& given : parts_.given_on(facet)) {
+    settle_border(given.site);
+  }
   const Vec3 middle = on.frame().to_world(0.5 * (low + high));
   const double reach = glm::distance(low, high);
   std::uint32_t last_edge = k_none;
@@ -549,13 +552,15 @@ ChangedFacets Refinement::take_changes() {
     const auto add = [&](std::uint32_t site) {
       const SitePlace& place = parts_.places[site];
       const std::int64_t whole = std::int64_t{1} << lattice_finest_;
-      changed.inner.push_back(
-          {ground(facet).lattice().point(lattice_finest_, place.index), site,
-           parts_.sites[site].level == 0 && place.index.i % whole == 0 && place.index.j % whole == 0});
+      const bool is_centre = parts_.sites[site].level == 0 && place.index.i % whole == 0 && place.index.j % whole == 0;
+      changed.inner.push_back({ground(facet).lattice().point(lattice_finest_, place.index), site, is_centre, true});
     };
+    const auto given = parts_.given_on(facet);
+    changed.inner.insert(changed.inner.end(), given.begin(), given.end());
     if (parts_.records[facet].mesh != k_none) {
       const FacetMesh& mesh = *parts_.meshes[parts_.records[facet].mesh];
-      for (const std::uint32_t site : mesh.sites().subspan(mesh.border_count())) {
+      const auto old = mesh.sites().subspan(mesh.border_count());
+      for (const std::uint32_t site : old.subspan(std::min(given.size(), old.size()))) {
         add(site);
       }
     }

@@ -56,6 +56,8 @@ struct SurfaceParts {
         memory(&lender.memory),
         borders(scene, welded, facets, options, memory),
         sites(memory),
+        given(memory),
+        first_given(memory),
         places(memory),
         levels(memory),
         samples(memory),
@@ -68,9 +70,13 @@ struct SurfaceParts {
         first_of_patch(memory),
         patch_members(memory) {}
 
-  FacetInput input(std::uint32_t facet) const { return {scene, welded, facets, options, borders, memory, facet}; }
-  Vec2 position_in_facet(std::uint32_t share) const {
-    return facets.facets[shares[share].facet].frame.to_plane(sites[samples[shares[share].sample].site].position);
+  FacetInput input(std::uint32_t facet) const {
+    return {scene, welded, facets, options, borders, memory, facet, given_on(facet)};
+  }
+  std::span<const InnerSite> given_on(std::uint32_t facet) const {
+    return first_given.empty()
+               ? std::span<const InnerSite>()
+               : std::span(given).subspan(first_given[facet], first_given[facet + 1] - first_given[facet]);
   }
 
   const Scene& scene;
@@ -82,8 +88,10 @@ struct SurfaceParts {
 
   BorderSites borders;
   std::pmr::vector<Site> sites;
-  std::pmr::vector<SitePlace> places;     // per site
-  std::pmr::vector<std::uint8_t> levels;  // per site: what it was raised to
+  std::pmr::vector<InnerSite> given;            // by the host; grouped by facet, their sites follow one another
+  std::pmr::vector<std::uint32_t> first_given;  // per facet and one past the last; empty: none are given
+  std::pmr::vector<SitePlace> places;           // per site
+  std::pmr::vector<std::uint8_t> levels;        // per site: what it was raised to
   std::pmr::vector<Sample> samples;
   std::pmr::vector<Share> shares;
   ShareDetails details;

@@ -219,6 +219,65 @@ TEST(Scene, RefusesBadLights) {
         }}});
 }
 
+TEST(Scene, RefusesSitesThatAreNotOnTheMesh) {
+  const Engine engine;
+  const SceneOf scene(engine);
+  const FloorAndLamp room;
+  EXPECT_EQ(scene.add(room.desc()), 0u);
+  radvor_mesh_desc dark = room.desc();
+  dark.flags = RADVOR_MESH_NO_RECEIVE;
+  EXPECT_EQ(scene.add(dark), 1u);
+  // The floor, the lamp, an edge, a corner; off by as much as rounding to float explains.
+  std::vector<double> on = {0.3, 1e-7, 0.4, 0.5, 1, 0.5, 0.5, 0, 0, 1, 0, 1};
+  EXPECT_EQ(radvor_scene_add_sites(scene, 0, on.data(), 4), RADVOR_OK) << engine.error();
+  EXPECT_EQ(radvor_scene_add_sites(scene, 0, nullptr, 0), RADVOR_OK) << engine.error();
+  const auto refused = [&](radvor_result result, const char* words, std::uint32_t mesh, std::vector<double> points) {
+    expect_refusal(engine, result, "radvor_scene_add_sites", words, [&] {
+      return radvor_scene_add_sites(scene, mesh, points.data(), static_cast<std::uint32_t>(points.size() / 3));
+    });
+  };
+  refused(RADVOR_ERROR_INVALID_ARGUMENT, "there is no mesh 2", 2, on);
+  refused(RADVOR_ERROR_INVALID_ARGUMENT, "mesh 1 does not receive", 1, on);
+  refused(RADVOR_ERROR_INVALID_GEOMETRY, "point 1, (0.5 0.25 0.5), lies on no triangle of mesh 0", 0,
+          {0.3, 0, 0.4, 0.5, 0.25, 0.5});
+  refused(RADVOR_ERROR_INVALID_GEOMETRY, "point 0, (1.001 0 0.5), lies on no triangle of mesh 0", 0, {1.001, 0, 0.5});
+  refused(RADVOR_ERROR_INVALID_GEOMETRY, "point 0, (nan 0 0.5), is not finite", 0, {NAN, 0, 0.5});
+  refused(RADVOR_ERROR_INVALID_GEOMETRY, "point 0, (0 inf 0.5), is not finite", 0, {0, INFINITY, 0.5});
+  expect_refusal(engine, RADVOR_ERROR_INVALID_ARGUMENT, "radvor_scene_add_sites", "positions is NULL",
+                 [&] { return radvor_scene_add_sites(scene, 0, nullptr, 1); });
+  EXPECT_EQ(radvor_scene_add_sites(nullptr, 0, on.data(), 1), RADVOR_ERROR_INVALID_ARGUMENT);
+}
+
+TEST(Scene, SitesGivenAreSitesOfTheBake) {
+  const Engine engine;
+  const FloorAndLamp room;
+  const double point[3] = {0.3141, 0, 0.4142};
+  const auto floor_vertices = [&](bool given) {
+    const SceneOf scene(engine);
+    EXPECT_EQ(scene.add(room.desc()), 0u);
+    if (given) {
+      EXPECT_EQ(radvor_scene_add_sites(scene, 0, point, 1), RADVOR_OK) << engine.error();
+    }
+    radvor_bake_options options = coarse();
+    options.patch_spacing = 0.8f;
+    options.min_spacing = 0.4f;
+    options.disable = RADVOR_DISABLE_REFINEMENT;
+    radvor_solution* solution = nullptr;
+    EXPECT_EQ(radvor_solution_create(scene, &options, &solution), RADVOR_OK) << engine.error();
+    radvor_output_mesh mesh{};
+    mesh.struct_size = sizeof mesh;
+    EXPECT_EQ(radvor_solution_mesh(solution, 0, &mesh), RADVOR_OK) << engine.error();
+    std::size_t there = 0;
+    for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
+      there += mesh.positions[3 * v] == 0.3141f && mesh.positions[3 * v + 2] == 0.4142f ? 1u : 0u;
+    }
+    radvor_solution_destroy(solution);
+    return there;
+  };
+  EXPECT_EQ(floor_vertices(false), 0u);
+  EXPECT_EQ(floor_vertices(true), 1u);
+}
+
 TEST(Scene, TakesTheExtremesOfEachRange) {
   const Engine engine;
   const SceneOf scene(engine);
@@ -299,6 +358,8 @@ TEST(Scene, OutOfMemoryAtAnyBlockChangesNothing) {
     EXPECT_EQ(id, i);
     retry("light", [&] { return radvor_scene_add_light(scene, &light, &id); });
     EXPECT_EQ(id, i);
+    const double on_floor[3] = {0.5, 0, 0.5};
+    retry("sites", [&] { return radvor_scene_add_sites(scene, i, on_floor, 1); });
   }
   EXPECT_GT(refusals, 30);
   radvor_scene_destroy(scene);
