@@ -177,8 +177,8 @@ def lattices(scenes, options):
 
 
 def tracer(scenes, options):
-    """Is the path tracer right? Its mean error against the references, beside what their noise allows: the standard error
-    of a mean over the points, the tracer's own noise not counted."""
+    """Is the path tracer right? Its mean error against the references, beside the standard error of that mean: the noise of
+    the references and its own over the root of the number of points."""
     result = {}
     for scene in scenes:
         for direct in (False, True):
@@ -187,11 +187,12 @@ def tracer(scenes, options):
                 continue
             last = runs.trace_curve(scene, options.tracer_seconds, direct)[-1]
             irradiance, noise = load_reference(reference)
-            allowed = math.sqrt(float((noise**2).sum())) / len(noise) / irradiance.mean()
+            allowed = math.sqrt(float((noise**2).sum()) / len(noise)) / irradiance.mean()
+            allowed = math.hypot(allowed, last["error"]["rms"]) / math.sqrt(len(noise))
             name = scene.name + (" direct" if direct else "")
             result[name] = {**last, "bias_allowed": allowed}
-            say(f"{name:<20} {last['samples']:>6} samples  bias {100 * last['error']['bias']:+.3f} % (noise of the "
-                f"reference's mean {100 * allowed:.3f} %)  rms {100 * last['error']['rms']:.2f} %  "
+            say(f"{name:<20} {last['samples']:>6} samples  bias {100 * last['error']['bias']:+.3f} % (standard "
+                f"error {100 * allowed:.3f} %)  rms {100 * last['error']['rms']:.2f} %  "
                 f"rms99 {100 * last['error']['rms99']:.2f} %")
     return result
 

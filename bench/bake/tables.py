@@ -112,7 +112,7 @@ def lattices(data):
 
 
 def tracer(data):
-    table(["scene", "samples", "bias", "noise of the reference's mean", "rms beyond the reference's noise", "rms99"],
+    table(["scene", "samples", "bias", "its standard error", "rms beyond the reference's noise", "rms99"],
           [[scene, f"{row['samples']:,}", f"{100 * row['error']['bias']:+.3f} %", percent(row["bias_allowed"], 3),
             percent(row["error"]["rms"], 2), percent(row["error"]["rms99"], 2)]
            for scene, row in data.get("tracer", {}).items()])
