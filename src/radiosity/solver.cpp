@@ -37,10 +37,8 @@ double sum(const Color& color) {
 
 constexpr SampleOrigin k_unanchored = {{k_none, k_none, k_none}, {0, 0, 0}, false};
 
-// Rays of one receiver's hemisphere: a power of two, so that they are a net.
-std::uint32_t rays_for(double tolerance) {
-  return std::clamp(std::bit_ceil(static_cast<std::uint32_t>(8 / tolerance)), 16u, 4096u);
-}
+constexpr double k_rays = 8;  // over the tolerance, where all samples have the same area
+constexpr double k_least_rays = 48, k_most_rays = 8192;
 
 }  // namespace
 
@@ -207,8 +205,13 @@ void Solver::refine() {
     const auto raised = plan_refinement(*surface, {light, sights_}, goal, host);
     if (!raised.empty()) {
       const std::pmr::vector<Share> before(surface->shares().begin(), surface->shares().end(), &host.memory);
+      std::pmr::vector<std::uint32_t> before_sites(&host.memory);
+      before_sites.reserve(direct.size());
+      for (const Sample& sample : surface->samples()) {
+        before_sites.push_back(sample.site);
+      }
       const auto origins = surface->refine(raised, most);
-      follow(before, origins);
+      follow(before, before_sites, origins);
     }
     if (!raised.empty() && !pending_.empty()) {
       ++round_;
@@ -225,6 +228,7 @@ void Solver::refine() {
   round_ = 0;
   pending_.resize(direct.size());
   std::iota(pending_.begin(), pending_.end(), 0u);
+  share_out_rays();
   stage_ = Stage::hemispheres;
 }
 
@@ -244,7 +248,8 @@ void renumber(std::pmr::vector<Value>& values, std::span<const SampleOrigin> ori
 }  // namespace
 
 // Renumbers what is known of samples and shares after a refinement; new samples are pending.
-void Solver::follow(std::span<const Share> before, std::span<const SampleOrigin> origins) {
+void Solver::follow(std::span<const Share> before, std::span<const std::uint32_t> before_sites,
+                    std::span<const SampleOrigin> origins) {
   std::pmr::memory_resource* memory = &host.memory;
   std::pmr::vector<std::uint32_t> now(direct.size(), k_none, memory);
   pending_.clear();
@@ -274,26 +279,59 @@ void Solver::follow(std::span<const Share> before, std::span<const SampleOrigin>
   renumber(records_, origins, k_none);
   renumber(outlooks_, origins, Outlook{});
   renumber(first_bounce_, origins, Color(0.0));
-  for (std::uint32_t& sample : interpolated_) {
-    sample = now[sample];
+  std::size_t still = 0;
+  for (const std::uint32_t sample : interpolated_) {
+    if (now[sample] != k_none) {
+      interpolated_[still++] = now[sample];
+    }
   }
+  interpolated_.resize(still);
   indirect.assign(origins.size(), Color(0.0));
 
-  // A share lives on in its facet's part of its sample.
+  hemispheres_->renumber(shares_now(before, before_sites, now));
+  place_receivers();
+  blocks_.emplace(*surface, receivers_, pending_, host);
+}
+
+// The number of each old share: the one of the same facet and side in its sample. Where a sample is no more (a facet too
+// thin to be triangulated anew takes its sectors apart), one of the same facet and side at the same site.
+std::pmr::vector<std::uint32_t> Solver::shares_now(std::span<const Share> before,
+                                                   std::span<const std::uint32_t> before_sites,
+                                                   std::span<const std::uint32_t> now) const {
   const auto shares = surface->shares();
   const auto samples = surface->samples();
-  std::pmr::vector<std::uint32_t> share_now(before.size(), k_none, memory);
-  for (std::size_t s = 0; s < before.size(); ++s) {
-    std::uint32_t share = samples[now[before[s].sample]].first_share;
-    while (shares[share].next_in_sample != k_none &&
-           (shares[share].facet != before[s].facet || shares[share].back != before[s].back)) {
+  std::pmr::vector<std::uint32_t> share_now(before.size(), k_none, &host.memory);
+  std::pmr::vector<std::uint32_t> orphans(&host.memory);
+  for (std::uint32_t s = 0; s < before.size(); ++s) {
+    std::uint32_t share = now[before[s].sample] == k_none ? k_none : samples[now[before[s].sample]].first_share;
+    while (share != k_none && (shares[share].facet != before[s].facet || shares[share].back != before[s].back)) {
       share = shares[share].next_in_sample;
     }
     share_now[s] = share;
+    if (share == k_none) {
+      orphans.push_back(s);
+    }
   }
-  hemispheres_->renumber(share_now);
-  place_receivers();
-  blocks_.emplace(*surface, receivers_, pending_, host);
+  if (orphans.empty()) {
+    return share_now;
+  }
+  std::pmr::vector<std::uint32_t> first_at_site(surface->sites().size(), k_none, &host.memory);
+  std::pmr::vector<std::uint32_t> next_at_site(shares.size(), k_none, &host.memory);
+  std::pmr::vector<std::uint32_t> any_of_facet(facets->facets.size(), k_none, &host.memory);
+  for (std::uint32_t s = 0; s < shares.size(); ++s) {
+    const std::uint32_t site = samples[shares[s].sample].site;
+    next_at_site[s] = first_at_site[site];
+    first_at_site[site] = s;
+    any_of_facet[shares[s].facet] = s;
+  }
+  for (const std::uint32_t s : orphans) {
+    std::uint32_t share = first_at_site[before_sites[before[s].sample]];
+    while (share != k_none && (shares[share].facet != before[s].facet || shares[share].back != before[s].back)) {
+      share = next_at_site[share];
+    }
+    share_now[s] = share != k_none ? share : any_of_facet[before[s].facet];
+  }
+  return share_now;
 }
 
 // Which pending samples of a level look around by themselves; the others take from their anchors. After Ward et al., A
@@ -341,6 +379,23 @@ void Solver::begin_level() {
   blocks_.emplace(*surface, receivers_, looking, host);
 }
 
+// How many rays a sample's hemisphere is worth: of all ways to spend them, in proportion to the root of the area leaves
+// the least area-weighted squared error. As much of it is left as by k_rays / tolerance for each sample.
+void Solver::share_out_rays() {
+  double roots = 0, area = 0;
+  for (const Sample& sample : surface->samples()) {
+    roots += std::sqrt(sample.area);
+    area += sample.area;
+  }
+  rays_per_length_ = area > 0 ? k_rays / options.tolerance * roots / area : 0;
+}
+
+// A power of two, so that they are a net.
+std::uint32_t Solver::rays_for(double area) const {
+  const double wanted = std::clamp(rays_per_length_ * std::sqrt(area), k_least_rays, k_most_rays);
+  return std::bit_ceil(static_cast<std::uint32_t>(wanted));
+}
+
 // What some blocks of pending receivers see of their hemispheres.
 void Solver::look_around() {
   if ((options.disable & Disable::indirect) != 0 && sum(light_->sky_radiance()) <= 0) {
@@ -350,11 +405,10 @@ void Solver::look_around() {
   if (block_ == 0) {
     begin_level();
   }
-  const std::uint32_t rays = rays_for(options.tolerance);
   const std::uint32_t end = next_blocks(4);
   over_blocks(block_, end, [&](std::uint32_t sample, Tracer& tracer) {
     const std::uint32_t record = records_[sample];
-    hemispheres_->trace(record, receivers_[sample], rays, hash(options.seed, record), *surface, tracer);
+    hemispheres_->trace(record, receivers_[sample], rays_for(surface->samples()[sample].area), hash(options.seed, record), *surface, tracer);
     outlooks_[sample] = hemispheres_->outlook(record);
   });
   block_ = end;

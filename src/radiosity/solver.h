@@ -51,8 +51,13 @@ class Solver {
  private:
   void shine();
   void refine();
-  void follow(std::span<const Share> before, std::span<const SampleOrigin> origins);
+  void follow(std::span<const Share> before, std::span<const std::uint32_t> before_sites,
+              std::span<const SampleOrigin> origins);
+  std::pmr::vector<std::uint32_t> shares_now(std::span<const Share> before, std::span<const std::uint32_t> before_sites,
+                                             std::span<const std::uint32_t> now) const;
   void begin_level();
+  void share_out_rays();
+  std::uint32_t rays_for(double area) const;
   void look_around();
   void see_first_bounce();
   void interpolate(std::span<const std::uint32_t> samples, std::pmr::vector<Color>& values) const;
@@ -98,6 +103,7 @@ class Solver {
   Stage stage_ = Stage::direct;
   std::uint32_t source_ = 0;  // of the direct stage
   std::uint32_t round_ = 0;   // of refinement
+  double rays_per_length_ = 0;
   bool looking_ = false;      // around: direct light alone has its mesh
   std::uint32_t level_ = 0;   // of the hemispheres
   std::uint32_t block_ = 0;   // next block of what is under way
