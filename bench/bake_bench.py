@@ -2,7 +2,7 @@
 """Run time against error of whole bakes.
 
     ./dev bench bake [SCENE...]            curves: radvor, its uniform mesh, a path tracer beside them
-    ./dev bench bake STUDY [SCENE...]      skips, threads, scaling, memory, embree, first-light, city,
+    ./dev bench bake STUDY [SCENE...]      skips, threads, scaling, embree, first-light, city,
                                            lattices, tracer
 
 SCENE is a folder of ../shared/scenes or a file of samples/scenes without its .obj [the clean scenes with a reference].

@@ -1,4 +1,4 @@
-"""What the curves do not tell: each skip's worth and harmlessness, threads, growth, memory, the share of ray casting, first
+"""What the curves do not tell: each skip's worth and harmlessness, threads, growth, the share of ray casting, first
 light, and a city of a million triangles. Every study prints as it goes and returns what goes into the JSON."""
 import math
 import os
@@ -101,21 +101,6 @@ def scaling(scenes, options):
     }
 
 
-def memory(scenes, options):
-    result = {}
-    for scene in scenes:
-        run = runs.bake(scene, ["--tolerance", options.tolerance, "--threads", 1], options.max_seconds)
-        if run is None:
-            continue
-        row = {key: run[key] for key in ("sites", "input_triangles", "triangles", "peak_bytes", "resident_bytes", "finished")}
-        row["bytes_per_site"] = run["peak_bytes"] / max(1, run["sites"])
-        row["bytes_per_input_triangle"] = run["peak_bytes"] / run["input_triangles"]
-        result[scene.name] = row
-        say(f"{scene.name:<12} {run['peak_bytes'] / 1e6:.1f} MB at most ({run['resident_bytes'] / 1e6:.1f} MB resident): "
-            f"{row['bytes_per_site']:,.0f} a site, {row['bytes_per_input_triangle']:,.0f} a triangle of the input")
-    return result
-
-
 def embree(scenes, options):
     """All-in time over that of the same rays in a bare loop."""
     result = {}
@@ -210,5 +195,5 @@ def city(_, options):
     return run
 
 
-k_studies = {"skips": skips, "threads": threads, "scaling": scaling, "memory": memory, "embree": embree,
+k_studies = {"skips": skips, "threads": threads, "scaling": scaling, "embree": embree,
              "first-light": first_light, "city": city, "lattices": lattices, "tracer": tracer}
