@@ -26,6 +26,7 @@ constexpr double k_pi = 3.14159265358979323846;
 constexpr double k_stands_out = 0.02;
 constexpr double k_times_even_share = 16;
 constexpr double k_share_of_mesh = 0.5;  // of the tolerance: what the mesh may get wrong of direct light
+constexpr double k_probed = 0.1;         // of the squared tolerance: share of the area that a triangle is probed from
 constexpr double k_local = 5;            // tolerances that a place may be off relative to its own light
 constexpr double k_reach = 3;            // times the root of the tolerance: how far light is taken, over what is near
 constexpr double k_same_way = 0.95;      // cosine between normals of which one may take the other's light
@@ -61,7 +62,11 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
       unshot_(&host.memory),
       radiosity_(&host.memory),
       incoming_(&host.memory),
-      stood_out_(&host.memory) {
+      stood_out_(&host.memory),
+      probes_(&host.memory),
+      probed_(&host.memory),
+      probed_sights_(&host.memory),
+      unprobed_(&host.memory) {
   const Clock::time_point begin = Clock::now();
   welded.emplace(weld(scene, options.weld_distance, host));
   facets.emplace(find_facets(scene, *welded, options.crease_angle, host));
@@ -95,6 +100,7 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
   records_.assign(samples.size(), k_none);
   outlooks_.assign(samples.size(), Outlook{});
   first_bounce_.assign(samples.size(), Color(0.0));
+  unprobed_.assign(samples.size(), 1);
   pending_.resize(samples.size());
   std::iota(pending_.begin(), pending_.end(), 0u);
   blocks_.emplace(*surface, receivers_, pending_, host);
@@ -110,6 +116,9 @@ void Solver::step() {
       break;
     case Stage::refinement:
       refine();
+      break;
+    case Stage::probes:
+      probe();
       break;
     case Stage::hemispheres:
       look_around();
@@ -132,15 +141,23 @@ void Solver::step() {
   report_convergence();
 }
 
-// Runs work(sample, tracer) for a range of blocks in parallel and sums up what was done.
+// Runs work(sample, tracer) for a range of blocks of receivers.
 template <class Work>
 void Solver::over_blocks(std::uint32_t begin, std::uint32_t end, Work&& work) {
+  over(begin, end, [&](std::uint32_t block, Tracer& tracer) {
+    for (const std::uint32_t sample : blocks_->block(block)) {
+      work(sample, tracer);
+    }
+  });
+}
+
+// Runs work(index, tracer) in parallel and sums up what was done.
+template <class Work>
+void Solver::over(std::uint32_t begin, std::uint32_t end, Work&& work) {
   std::pmr::vector<TransportCounters> counters(end - begin, &host.memory);
   host.jobs.for_each(end - begin, [&](std::uint32_t index) {
     Tracer tracer(*visibility_);
-    for (const std::uint32_t sample : blocks_->block(begin + index)) {
-      work(sample, tracer);
-    }
+    work(begin + index, tracer);
     counters[index] = tracer.counters;
   });
   for (const TransportCounters& counter : counters) {
@@ -189,47 +206,148 @@ void Solver::shine() {
 // more, the next kind of light is due.
 void Solver::refine() {
   std::pmr::vector<Color> light(direct, &host.memory);
-  double received = 0, area = 0;
   for (std::size_t i = 0; i < light.size(); ++i) {
     light[i] += first_bounce_[i];
-    received += surface->samples()[i].area * sum(light[i]) / 3;
-    area += surface->samples()[i].area;
   }
-  const auto site_count = static_cast<std::uint32_t>(surface->sites().size());
-  const std::uint32_t most = options.spacing.max_sites;
-  const bool may =
-      options.spacing.refines && received > 0 && (most == 0 || site_count < most) && round_ < 2 * surface->max_level();
-  if (may) {
-    const RefinementGoal goal{k_share_of_mesh * options.tolerance, k_local * options.tolerance, received / area,
-                              site_count};
-    const auto raised = plan_refinement(*surface, {light, sights_}, goal, host);
-    if (!raised.empty()) {
-      const std::pmr::vector<Share> before(surface->shares().begin(), surface->shares().end(), &host.memory);
-      std::pmr::vector<std::uint32_t> before_sites(&host.memory);
-      before_sites.reserve(direct.size());
-      for (const Sample& sample : surface->samples()) {
-        before_sites.push_back(sample.site);
-      }
-      const auto origins = surface->refine(raised, most);
-      follow(before, before_sites, origins);
-    }
-    if (!raised.empty() && !pending_.empty()) {
-      ++round_;
-      source_ = 0;
-      stage_ = Stage::direct;
+  if (options.spacing.refines && round_ < 2 * surface->max_level()) {
+    const double mean = mean_of(light);
+    const RefinementGoal goal{k_share_of_mesh * options.tolerance, k_local * options.tolerance, mean,
+                              surface->sites().size()};
+    if (mean > 0 && raise(plan_refinement(*surface, {light, sights_}, goal, host))) {
       return;
     }
   }
   if (looking_) {
     stage_ = Stage::account;
-    return;
+  } else if (options.spacing.refines) {
+    stage_ = Stage::probes;
+  } else {
+    begin_looking();
   }
+}
+
+// The mean irradiance over all receiving sides, three channels as one.
+double Solver::mean_of(std::span<const Color> irradiance) const {
+  double received = 0, area = 0;
+  const auto samples = surface->samples();
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    received += samples[i].area * sum(irradiance[i]) / 3;
+    area += samples[i].area;
+  }
+  return area > 0 ? received / area : 0;
+}
+
+// Whether there are new samples, whose direct light is then next.
+bool Solver::raise(std::span<const std::uint32_t> raised) {
+  const std::uint32_t most = options.spacing.max_sites;
+  if (raised.empty() || (most != 0 && surface->sites().size() >= most)) {
+    return false;
+  }
+  const std::pmr::vector<Share> before(surface->shares().begin(), surface->shares().end(), &host.memory);
+  std::pmr::vector<std::uint32_t> before_sites(&host.memory);
+  before_sites.reserve(direct.size());
+  for (const Sample& sample : surface->samples()) {
+    before_sites.push_back(sample.site);
+  }
+  const auto origins = surface->refine(raised, most);
+  follow(before, before_sites, origins);
+  if (pending_.empty()) {
+    return false;
+  }
+  ++round_;
+  source_ = 0;
+  stage_ = Stage::direct;
+  return true;
+}
+
+void Solver::begin_looking() {
   looking_ = true;
   round_ = 0;
   pending_.resize(direct.size());
   std::iota(pending_.begin(), pending_.end(), 0u);
   share_out_rays();
   stage_ = Stage::hemispheres;
+}
+
+// Direct light in the middle of triangles. A triangle that is wrong by the mean irradiance is worth its share of the
+// area against the squared tolerance: smaller ones than a tenth of that are not looked into.
+void Solver::probe() {
+  if (block_ == 0) {
+    double area = 0;
+    for (const Sample& sample : surface->samples()) {
+      area += sample.area;
+    }
+    const double least = std::max(k_probed * options.tolerance * options.tolerance * area, 1e-300);
+    probes_ = place_probes(*surface, least, unprobed_, visibility_->lift(), host);
+    probed_.assign(probes_.size(), Color(0.0));
+    probed_sights_.assign(probes_.size(), 0);
+    std::fill(unprobed_.begin(), unprobed_.end(), std::uint8_t{0});
+  }
+  const auto count = static_cast<std::uint32_t>((probes_.size() + ReceiverBlocks::k_size - 1) / ReceiverBlocks::k_size);
+  const std::uint32_t end = std::min(count, block_ + 16 * host.jobs.thread_count());
+  over(block_, end, [&](std::uint32_t block, Tracer& tracer) {
+    const std::size_t stop = std::min<std::size_t>(probes_.size(), std::size_t{block + 1} * ReceiverBlocks::k_size);
+    for (std::size_t k = std::size_t{block} * ReceiverBlocks::k_size; k < stop; ++k) {
+      for (std::uint32_t source = 0; source < light_->source_count(); ++source) {
+        Sight sight;
+        probed_[k] += light_->irradiance(source, probes_[k].receiver, tracer, sight);
+        probed_sights_[k] = with_sight(probed_sights_[k], sight);
+      }
+    }
+  });
+  block_ = end;
+  if (block_ < count) {
+    return;
+  }
+  block_ = 0;
+  if (round_ >= 3 * surface->max_level() || !raise(wrong_between())) {
+    begin_looking();
+  }
+}
+
+// Sites about the triangles whose probes say otherwise than their corners, worst first, until the rest is within the
+// tolerance.
+std::pmr::vector<std::uint32_t> Solver::wrong_between() const {
+  const auto samples = surface->samples();
+  const double mean = mean_of(direct);
+  struct Wrong {
+    double score;
+    std::uint32_t probe;
+  };
+  std::pmr::vector<Wrong> wrong(&host.memory);
+  double left = 0, area = 0;
+  for (const Sample& sample : samples) {
+    area += sample.area;
+  }
+  for (std::uint32_t k = 0; k < probes_.size() && mean > 0; ++k) {
+    const Probe& probe = probes_[k];
+    double expected = 0;
+    for (const std::uint32_t sample : probe.samples) {
+      expected += sum(direct[sample]) / 9;
+    }
+    const double relative = std::abs(sum(probed_[k]) / 3 - expected) / (k_share_of_mesh * options.tolerance * mean);
+    const double score = relative * relative * probe.area;
+    left += score;
+    wrong.push_back({score, k});
+  }
+  std::sort(wrong.begin(), wrong.end(),
+            [](const Wrong& a, const Wrong& b) { return a.score != b.score ? a.score > b.score : a.probe < b.probe; });
+  std::pmr::vector<std::uint32_t> raised(&host.memory);
+  std::pmr::vector<std::uint8_t> is_raised(surface->sites().size(), 0, &host.memory);
+  for (const Wrong& of : wrong) {
+    if (left <= area) {
+      break;
+    }
+    left -= of.score;
+    for (const std::uint32_t sample : probes_[of.probe].samples) {
+      const std::uint32_t site = samples[sample].site;
+      if (is_raised[site] == 0) {
+        is_raised[site] = 1;
+        raised.push_back(site);
+      }
+    }
+  }
+  return raised;
 }
 
 namespace {
@@ -279,6 +397,7 @@ void Solver::follow(std::span<const Share> before, std::span<const std::uint32_t
   renumber(records_, origins, k_none);
   renumber(outlooks_, origins, Outlook{});
   renumber(first_bounce_, origins, Color(0.0));
+  renumber(unprobed_, origins, std::uint8_t{1});
   std::size_t still = 0;
   for (const std::uint32_t sample : interpolated_) {
     if (now[sample] != k_none) {
@@ -293,8 +412,8 @@ void Solver::follow(std::span<const Share> before, std::span<const std::uint32_t
   blocks_.emplace(*surface, receivers_, pending_, host);
 }
 
-// The number of each old share: the one of the same facet and side in its sample. Where a sample is no more (a facet too
-// thin to be triangulated anew takes its sectors apart), one of the same facet and side at the same site.
+// The number of each old share: the one of the same facet and side in its sample. Where a sample is no more (a facet
+// too thin to be triangulated anew takes its sectors apart), one of the same facet and side at the same site.
 std::pmr::vector<std::uint32_t> Solver::shares_now(std::span<const Share> before,
                                                    std::span<const std::uint32_t> before_sites,
                                                    std::span<const std::uint32_t> now) const {
@@ -408,7 +527,8 @@ void Solver::look_around() {
   const std::uint32_t end = next_blocks(4);
   over_blocks(block_, end, [&](std::uint32_t sample, Tracer& tracer) {
     const std::uint32_t record = records_[sample];
-    hemispheres_->trace(record, receivers_[sample], rays_for(surface->samples()[sample].area), hash(options.seed, record), *surface, tracer);
+    hemispheres_->trace(record, receivers_[sample], rays_for(surface->samples()[sample].area),
+                        hash(options.seed, record), *surface, tracer);
     outlooks_[sample] = hemispheres_->outlook(record);
   });
   block_ = end;
@@ -636,6 +756,7 @@ void Solver::report_convergence() {
       now = 0.4 * (source_ + part) / std::max(1u, light_->source_count());
       break;
     case Stage::refinement:
+    case Stage::probes:
       now = 0.4;
       break;
     case Stage::hemispheres:

@@ -1,7 +1,8 @@
 // The state of a bake and the steps of its loop. Each step is a unit of work whose order is fixed, small enough for a
 // time slice.
 //
-//   direct <-> refinement -> (hemispheres -> refinement -> direct)* -> account -> standouts -> bounces -> finish
+//   direct <-> refinement <-> probes -> (hemispheres -> refinement -> direct)* -> account -> standouts -> bounces ->
+//   finish
 //
 // Light of sources that have a place or a direction is exact at every sample, and the mesh follows it, level by level.
 // Then samples look around for sky and the other surfaces. What comes from all around is smooth but near other
@@ -20,6 +21,7 @@
 #include "radiosity/direct_light.h"
 #include "radiosity/gather.h"
 #include "radiosity/occluder_tree.h"
+#include "radiosity/probes.h"
 #include "radiosity/receiver.h"
 #include "radiosity/receiver_blocks.h"
 #include "radiosity/tracer.h"
@@ -30,7 +32,7 @@ class Solver {
  public:
   Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& maker, Host& lender);
 
-  enum class Stage { direct, refinement, hemispheres, account, standouts, bounces, finish, done };
+  enum class Stage { direct, refinement, probes, hemispheres, account, standouts, bounces, finish, done };
   Stage stage() const { return stage_; }
   void step();
 
@@ -51,6 +53,10 @@ class Solver {
  private:
   void shine();
   void refine();
+  void probe();
+  std::pmr::vector<std::uint32_t> wrong_between() const;
+  bool raise(std::span<const std::uint32_t> sites);
+  void begin_looking();
   void follow(std::span<const Share> before, std::span<const std::uint32_t> before_sites,
               std::span<const SampleOrigin> origins);
   std::pmr::vector<std::uint32_t> shares_now(std::span<const Share> before, std::span<const std::uint32_t> before_sites,
@@ -70,6 +76,9 @@ class Solver {
 
   template <class Work>
   void over_blocks(std::uint32_t begin, std::uint32_t end, Work&& work);
+  template <class Work>
+  void over(std::uint32_t begin, std::uint32_t end, Work&& work);
+  double mean_of(std::span<const Color> irradiance) const;
   std::uint32_t next_blocks(std::uint32_t per_thread) const;
   double unshot_luminance() const;
   void place_receivers();
@@ -103,10 +112,14 @@ class Solver {
   Stage stage_ = Stage::direct;
   std::uint32_t source_ = 0;  // of the direct stage
   std::uint32_t round_ = 0;   // of refinement
+  std::pmr::vector<Probe> probes_;
+  std::pmr::vector<Color> probed_;  // irradiance at each probe
+  std::pmr::vector<std::uint64_t> probed_sights_;
+  std::pmr::vector<std::uint8_t> unprobed_;  // of each sample: no probe was near it
   double rays_per_length_ = 0;
-  bool looking_ = false;      // around: direct light alone has its mesh
-  std::uint32_t level_ = 0;   // of the hemispheres
-  std::uint32_t block_ = 0;   // next block of what is under way
+  bool looking_ = false;     // around: direct light alone has its mesh
+  std::uint32_t level_ = 0;  // of the hemispheres
+  std::uint32_t block_ = 0;  // next block of what is under way
   std::uint32_t bounces_ = 0;
   double previous_unshot_ = 0, first_unshot_ = 0;
   BakeStats stats_;
