@@ -89,22 +89,26 @@ Location Triangulation::locate_from(Vec2 point, HalfEdge start, const Lattice& l
   // Without constraints a visibility walk cannot go round in circles.
   const auto most_steps =
       constrained_ ? static_cast<std::uint64_t>(64 + 8 * std::sqrt(static_cast<double>(vertex_count_))) : UINT64_MAX;
+  bool right_first = true;  // the side taken last comes first: around a vertex that is one question a triangle
   for (std::uint64_t step = 0; step < most_steps; ++step) {
     const VertexId c = apex(h);
     if (c == k_infinite) {
       return describe(Where::outside, h);
     }
-    const VertexId a = origin(h);
-    const VertexId b = target(h);
-    const int right = orientation(positions_[b], positions_[c], point, lattice);
-    if (right < 0) {
-      h = twin(next(h));
-      entry_side = 1;
-      continue;
+    const Vec2 at_c = positions_[c];
+    const auto side_of_right = [&] { return orientation(positions_[target(h)], at_c, point, lattice); };
+    const auto side_of_left = [&] { return orientation(at_c, positions_[origin(h)], point, lattice); };
+    int right = right_first ? side_of_right() : 0;
+    int left = 0;
+    if (right >= 0) {
+      left = side_of_left();
+      if (!right_first && left >= 0) {
+        right = side_of_right();
+      }
     }
-    const int left = orientation(positions_[c], positions_[a], point, lattice);
-    if (left < 0) {
-      h = twin(previous(h));
+    if (right < 0 || left < 0) {
+      right_first = left < 0;
+      h = twin(right < 0 ? next(h) : previous(h));
       entry_side = 1;
       continue;
     }
