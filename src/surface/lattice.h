@@ -7,6 +7,7 @@
 // A point (i, j) of level l is the point (2i, 2j) of level l + 1: nothing moves when a lattice is refined.
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -27,6 +28,11 @@ inline double dyadic_step(double length) {
   return std::ldexp(std::nearbyint(std::ldexp(mantissa, k_step_bits)), exponent - k_step_bits);
 }
 
+/// 2^-level, exactly. level <= 1000.
+inline double halved(std::uint32_t level) {
+  return std::bit_cast<double>(std::uint64_t{1023 - level} << 52);
+}
+
 /// A column and a row number on some level of a lattice.
 struct LatticeIndex {
   std::int64_t i, j;
@@ -44,9 +50,9 @@ class FacetLattice {
         anchor_(std::nearbyint(centre.x / quantum_) * quantum_, std::nearbyint(centre.y / quantum_) * quantum_) {}
 
   /// Between neighbours in a row of a level.
-  double column(std::uint32_t level) const { return std::ldexp(column_, -static_cast<int>(level)); }
+  double column(std::uint32_t level) const { return column_ * halved(level); }
   /// Between rows of a level.
-  double row(std::uint32_t level) const { return std::ldexp(row_, -static_cast<int>(level)); }
+  double row(std::uint32_t level) const { return row_ * halved(level); }
   /// What all coordinates down to the 12th level are multiples of.
   double quantum() const { return quantum_; }
 
@@ -100,10 +106,10 @@ inline constexpr std::uint32_t k_exact_levels = 12;
 
 /// How often the first elements' lattice may be halved: the spacing stays at or above min_spacing, coordinates exact.
 inline std::uint32_t refinements(const SurfaceOptions& options) {
-  const double spacing = std::ldexp(dyadic_step(options.patch_spacing), -static_cast<int>(options.element_levels));
+  const double spacing = dyadic_step(options.patch_spacing) * halved(options.element_levels);
   std::uint32_t count = 0;
   while (options.element_levels + count < k_exact_levels &&
-         std::ldexp(spacing, -static_cast<int>(count) - 1) >= options.min_spacing * (1 - 1e-3)) {
+         spacing * halved(count + 1) >= options.min_spacing * (1 - 1e-3)) {
     ++count;
   }
   return count;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "scene/welded.h"
 
@@ -61,7 +62,33 @@ LatticePatches::LatticePatches(const FacetLattice& lattice, std::span<const Latt
   std::sort(centres_.begin(), centres_.end(), before);
 }
 
+// The lattice's point nearest to a site is in one of the rows beside it, in the column before or after; of equally near
+// ones it is the first by row and column, as patches are numbered.
+LatticeIndex LatticePatches::nearest_point(const Vec2& site) const {
+  LatticeIndex best{};
+  double least = std::numeric_limits<double>::infinity();
+  const std::int64_t row = lattice_.last_row(0, site.y);
+  for (std::int64_t j = row; j <= row + 1; ++j) {
+    const std::int64_t column = lattice_.last_column(0, j, site.x);
+    for (std::int64_t i = column; i <= column + 1; ++i) {
+      const Vec2 offset = lattice_.point(0, {i, j}) - site;
+      if (glm::dot(offset, offset) < least) {
+        least = glm::dot(offset, offset);
+        best = {i, j};
+      }
+    }
+  }
+  return best;
+}
+
 std::uint32_t LatticePatches::nearest(const Vec2& site, const Vec2& receiver) const {
+  if (given_.empty()) {
+    const LatticeIndex index = nearest_point(site);
+    const auto centre = std::lower_bound(centres_.begin(), centres_.end(), index, before);
+    if (centre != centres_.end() && !before(index, *centre) && !walls_.blocks(receiver, lattice_.point(0, index))) {
+      return static_cast<std::uint32_t>(centre - centres_.begin());
+    }
+  }
   const double reach = k_reach * lattice_.column(0);
   Nearest found;
   const std::int64_t last_row = lattice_.last_row(0, site.y + reach);

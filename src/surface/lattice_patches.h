@@ -26,6 +26,8 @@ class LatticePatches {
   std::uint32_t nearest(const Vec2& site, const Vec2& receiver) const;
 
  private:
+  LatticeIndex nearest_point(const Vec2& site) const;
+
   const FacetLattice& lattice_;
   SegmentGrid walls_;
   Vec2 position(std::uint32_t patch) const {

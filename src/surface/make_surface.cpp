@@ -178,7 +178,8 @@ class SurfaceMaker {
         record.share_count = 3;
         parts_.small_triangles[facet] = {shares, shares + 1, shares + 2};
       } else {
-        record.share_count = static_cast<std::uint32_t>(parts_.drafts[record.mesh].shares.size());
+        const auto drafted = static_cast<std::uint32_t>(parts_.drafts[record.mesh].shares.size());
+        record.share_count = drafted > 0 ? drafted : record.share_count;  // else it is as it was
         parts_.meshes[record.mesh]->number_shares(shares - record.first_share);
       }
       record.first_share = shares;
@@ -325,7 +326,7 @@ class SurfaceMaker {
   std::uint32_t fill_meshed(std::uint32_t facet) {
     const FacetInput input = parts_.input(facet);
     FacetShading shading(input);
-    const FacetDraft& draft = parts_.drafts[parts_.records[facet].mesh];
+    FacetDraft& draft = parts_.drafts[parts_.records[facet].mesh];
     std::uint32_t clamped = 0;
     for (std::uint32_t k = 0; k < draft.shares.size(); ++k) {
       const FacetShare& share = draft.shares[k];
@@ -334,6 +335,7 @@ class SurfaceMaker {
                share.source.triangle == k_none ? shading.inside(share.position)
                                                : shading.on_side(share.source, parts_.sites[share.site].position));
     }
+    draft.let_go();
     return clamped;
   }
 

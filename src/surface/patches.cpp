@@ -41,7 +41,7 @@ class PatchMaker {
   void take_own(const FacetRecord& record) {
     const std::uint32_t own = record.mesh == k_none ? 0 : parts_.drafts[record.mesh].patch_count;
     for (std::uint32_t k = 0; own > 0 && k < record.share_count; ++k) {
-      const std::uint32_t patch = parts_.drafts[record.mesh].shares[k].patch;
+      const std::uint32_t patch = parts_.drafts[record.mesh].patches[k];
       if (patch != k_none) {
         const std::uint32_t front = record.first_share + k;
         parts_.shares[front].patch = count_ + patch;

@@ -62,7 +62,7 @@ std::span<const LatticeIndex> Refinement::directions() const {
 }
 
 double Refinement::spacing(std::uint8_t level) const {
-  return std::ldexp(parts_.borders.spacing(), -static_cast<int>(level));
+  return parts_.borders.spacing() * halved(level);
 }
 
 std::uint8_t Refinement::coarsest(std::int64_t i, std::int64_t j) const {

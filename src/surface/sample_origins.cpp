@@ -42,7 +42,7 @@ class OriginFinder {
       const FacetMesh* mesh = triangulation(parts_.records[facet].mesh);
       const FacetMesh* old_mesh = triangulation(before_.records[facet].mesh);
       if (mesh && old_mesh) {
-        match_vertices(facet, *mesh, *old_mesh);
+        match_vertices(*mesh, *old_mesh);
       } else {
         match_by_site(facet);
       }
@@ -82,40 +82,63 @@ class OriginFinder {
             before_.shares};
   }
 
-  Vec2 receiver_in_plane(std::uint32_t facet, std::uint32_t share) const {
-    return parts_.facets.facets[facet].frame.to_plane(parts_.details.receiver[share]);
-  }
-
   // Vertices come in the same order before and after, with new ones between.
-  void match_vertices(std::uint32_t facet, const FacetMesh& mesh, const FacetMesh& old_mesh) {
+  void match_vertices(const FacetMesh& mesh, const FacetMesh& old_mesh) {
+    delaunay::CellBuffer buffer(parts_.memory);
+    std::pmr::vector<Vec2> now(parts_.memory), then(parts_.memory);
     std::uint32_t old = 0;
     for (std::uint32_t vertex = 0; vertex < mesh.sites().size(); ++vertex) {
       if (old == old_mesh.sites().size() || old_mesh.sites()[old] != mesh.sites()[vertex]) {
         continue;
       }
-      const std::uint32_t first_old = old_mesh.first_share(old);
-      const std::uint32_t end_old = old_mesh.end_share(old);
-      for (std::uint32_t share = mesh.first_share(vertex); share < mesh.end_share(vertex) && first_old < end_old;
-           ++share) {
-        old_share_[share] = end_old == first_old + 1 ? first_old : same_sector(facet, share, first_old, end_old);
+      const std::uint32_t count = mesh.end_share(vertex) - mesh.first_share(vertex);
+      const std::uint32_t old_count = old_mesh.end_share(old) - old_mesh.first_share(old);
+      if (count == 1 && old_count == 1) {
+        old_share_[mesh.first_share(vertex)] = old_mesh.first_share(old);
+      } else if (old_count > 0) {
+        find_walls(mesh.triangulation(), vertex, buffer, now);
+        find_walls(old_mesh.triangulation(), old, buffer, then);
+        match_sectors(now, then, mesh.first_share(vertex), old_mesh.first_share(old));
       }
       ++old;
     }
   }
 
-  // Which sector of the old vertex the share's receiver lies in.
-  std::uint32_t same_sector(std::uint32_t facet, std::uint32_t share, std::uint32_t first, std::uint32_t end) const {
-    const FacetPoint found = before(facet).locate(receiver_in_plane(facet, share));
-    for (const std::uint32_t corner : found.shares) {
-      if (corner >= first && corner < end) {
-        return corner;
+  // Per sector of a vertex: the direction of the wall that it begins at, unit.
+  static void find_walls(const delaunay::Triangulation& triangulation, delaunay::VertexId vertex,
+                         delaunay::CellBuffer& buffer, std::pmr::vector<Vec2>& directions) {
+    bounded_cell(triangulation, vertex, buffer);
+    directions.clear();
+    for (const delaunay::Sector& sector : buffer.sectors()) {
+      directions.push_back(
+          glm::normalize(triangulation.position(triangulation.target(sector.first)) - triangulation.position(vertex)));
+    }
+  }
+
+  // Walls stay where they are, and sectors run counter-clockwise: which is the first may have changed. Where one wall
+  // is there no more, or one that was not is, each sector was the one that began at the nearest direction.
+  void match_sectors(std::span<const Vec2> now, std::span<const Vec2> then, std::uint32_t first,
+                     std::uint32_t first_old) {
+    const auto best = [&](auto&& likeness) {
+      std::size_t found = 0;
+      for (std::size_t k = 1; k < then.size(); ++k) {
+        found = likeness(k) > likeness(found) ? k : found;
       }
+      return found;
+    };
+    const std::size_t turn = best([&](std::size_t by) {
+      double sum = 0;
+      for (std::size_t k = 0; k < now.size(); ++k) {
+        sum += glm::dot(now[k], then[(k + by) % then.size()]);
+      }
+      return sum;
+    });
+    for (std::size_t k = 0; k < now.size(); ++k) {
+      const std::size_t old = now.size() == then.size()
+                                  ? (k + turn) % then.size()
+                                  : best([&](std::size_t other) { return glm::dot(now[k], then[other]); });
+      old_share_[first + k] = first_old + static_cast<std::uint32_t>(old);
     }
-    std::uint32_t best = first;
-    for (std::uint32_t old = first + 1; old < end; ++old) {
-      best = distance(old, share) < distance(best, share) ? old : best;
-    }
-    return best;
   }
 
   // Between receivers.

@@ -152,7 +152,13 @@ TEST_P(RealScene, IsRefinedAlongAPlane) {
         sites.push_back(site);
       }
     }
-    surface.refine(sites);
+    const std::size_t samples = surface.samples().size();
+    std::vector<std::uint32_t> kept(samples, 0);
+    for (const SampleOrigin& origin : surface.refine(sites)) {
+      ASSERT_LT(*std::max_element(origin.samples.begin(), origin.samples.end()), samples);
+      kept[origin.samples[0]] += origin.kept ? 1 : 0;
+    }
+    EXPECT_EQ(std::count(kept.begin(), kept.end(), 1u), static_cast<std::ptrdiff_t>(samples));
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::size_t unbalanced = 0;
