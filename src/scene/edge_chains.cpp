@@ -109,7 +109,7 @@ std::array<std::uint32_t, 3> EdgeChains::add_triangle(const std::array<std::uint
     segments[i] = segment_between(vertices[i], vertices[(i + 1) % 3]);
     const std::uint32_t opposite = vertices[(i + 2) % 3];
     if (static_cast<int>((i + 2) % 3) == apex) {
-      apexes_.push_back({segments[i], {opposite, parameter(segments_[segments[i]], opposite)}, true});
+      hand_down(segments[i], opposite);
     }
     if (!in_tree_[opposite]) {
       in_tree_[opposite] = true;
@@ -150,7 +150,7 @@ void EdgeChains::find_inside(std::uint32_t index, std::pmr::vector<Found>& found
                 // A vertex that nearly coincides with an end is that end's twin, not inside.
                 const double to_end = std::min(along, 1 - along) * side_length;
                 if (to_end > 2 * touching && squared_length(off) <= touching * touching) {
-                  found.push_back({index, {vertex, along}, false});
+                  found.push_back({index, {vertex, along}});
                 }
               });
 }
@@ -161,28 +161,24 @@ bool EdgeChains::are_twins(std::uint32_t segment, std::uint32_t a, std::uint32_t
   return squared_length(tolerance_.positions[a] - tolerance_.positions[b]) <= near * near;
 }
 
-// Of one segment, in no order and perhaps twice. Of twins one is enough, and twins of an apex would part the segment
-// from the sides of its sliver.
-void EdgeChains::lay_inside(std::span<Found> found) {
+void EdgeChains::sort_along(std::span<Found> found) const {
   const auto& positions = tolerance_.positions;
   std::sort(found.begin(), found.end(), [&](const Found& a, const Found& b) {
-    if (a.inside.along != b.inside.along) {
-      return a.inside.along < b.inside.along;
-    }
-    return a.inside.vertex != b.inside.vertex ? lies_before(positions[a.inside.vertex], positions[b.inside.vertex])
-                                              : a.apex > b.apex;
+    return a.inside.along != b.inside.along ? a.inside.along < b.inside.along
+                                            : a.inside.vertex != b.inside.vertex &&
+                                                  lies_before(positions[a.inside.vertex], positions[b.inside.vertex]);
   });
+}
+
+// Of one segment, in no order. Of twins one is enough.
+void EdgeChains::lay_inside(std::span<Found> found) {
+  sort_along(found);
   const std::uint32_t index = found.front().segment;
   Segment& segment = segments_[index];
   segment.first_inside = static_cast<std::uint32_t>(inside_.size());
-  auto next_apex = found.begin();
-  for (auto one = found.begin(); one != found.end(); ++one) {
-    next_apex = std::find_if(std::max(one, next_apex), found.end(), [](const Found& f) { return f.apex; });
-    const bool after_twin = segment.inside_count > 0 && are_twins(index, one->inside.vertex, inside_.back().vertex);
-    const bool before_twin = next_apex != found.end() && are_twins(index, one->inside.vertex, next_apex->inside.vertex);
-    const bool repeated = segment.inside_count > 0 && inside_.back().vertex == one->inside.vertex;
-    if (one->apex ? !repeated : !after_twin && !before_twin) {
-      inside_.push_back(one->inside);
+  for (const Found& one : found) {
+    if (segment.inside_count == 0 || !are_twins(index, one.inside.vertex, inside_.back().vertex)) {
+      inside_.push_back(one.inside);
       ++segment.inside_count;
     }
   }
@@ -219,10 +215,69 @@ void EdgeChains::divide(std::uint32_t index) {
   for_each_part([&](std::uint32_t from, std::uint32_t to) { children_.push_back(segment_between(from, to)); });
 }
 
+void EdgeChains::hand_down(std::uint32_t segment, std::uint32_t vertex) {
+  apexes_.push_back({segment, {vertex, parameter(segments_[segment], vertex)}});
+}
+
+// The longest side of a dropped sliver must consist of its other two sides, whatever lies inside these: it is divided
+// at the apex alone, and the parts, which are those sides, divide themselves. Where several slivers share a longest
+// side it is divided at one apex; the part behind hands on the others, and the sides of their slivers get that one, as
+// if they had slivers of their own. Longest first, so that a segment knows all its apexes; the middle one, so that k of
+// them make no more than k log k segments.
+void EdgeChains::lay_apexes() {
+  const auto shorter = [&](const Found& a, const Found& b) {
+    const Segment& one = segments_[a.segment];
+    return a.segment != b.segment && is_smaller(one.a, one.b, segments_[b.segment]);
+  };
+  std::make_heap(apexes_.begin(), apexes_.end(), shorter);
+  std::pmr::vector<Found> group(memory_);
+  while (!apexes_.empty()) {
+    group.clear();
+    const std::uint32_t index = apexes_.front().segment;
+    while (!apexes_.empty() && apexes_.front().segment == index) {
+      group.push_back(apexes_.front());
+      std::pop_heap(apexes_.begin(), apexes_.end(), shorter);
+      apexes_.pop_back();
+    }
+    sort_along(group);
+    const auto same = [](const Found& a, const Found& b) { return a.inside.vertex == b.inside.vertex; };
+    group.erase(std::unique(group.begin(), group.end(), same), group.end());
+    auto middle = group.end();
+    while (!group.empty() && segments_[index].inside_count == 0) {
+      middle = group.begin() + static_cast<std::ptrdiff_t>(group.size() / 2);
+      segments_[index].first_inside = static_cast<std::uint32_t>(inside_.size());
+      segments_[index].inside_count = 1;
+      inside_.push_back(middle->inside);
+      divide(index);
+      if (segments_[index].inside_count == 0) {
+        group.erase(middle);
+      }
+    }
+    const Segment whole = segments_[index];
+    const auto hand = [&](std::uint32_t from, std::uint32_t to, std::uint32_t vertex) {
+      if (is_smaller(from, to, whole)) {
+        hand_down(segment_between(from, to), vertex);
+        std::push_heap(apexes_.begin(), apexes_.end(), shorter);
+      }
+    };
+    for (auto other = group.begin(); other != group.end(); ++other) {
+      const std::uint32_t vertex = other->inside.vertex;
+      if (other < middle) {
+        hand(whole.a, middle->inside.vertex, vertex);
+        hand(vertex, whole.b, middle->inside.vertex);
+      } else if (other > middle) {
+        hand(middle->inside.vertex, whole.b, vertex);
+        hand(whole.a, vertex, middle->inside.vertex);
+      }
+    }
+  }
+}
+
 void EdgeChains::split(const Jobs& jobs) {
   constexpr std::uint32_t k_chunk = 4096;
   if (!tree_) {
     plant_tree();
+    lay_apexes();
   }
   std::pmr::vector<std::pmr::vector<Found>> found_by_chunk(memory_);
   std::pmr::vector<Found> found(memory_);
@@ -234,11 +289,12 @@ void EdgeChains::split(const Jobs& jobs) {
       found_by_chunk[chunk].clear();
       const std::uint32_t first = begin + chunk * k_chunk;
       for (std::uint32_t i = first; i < std::min(end, first + k_chunk); ++i) {
-        find_inside(i, found_by_chunk[chunk]);
+        if (!is_divided(i)) {
+          find_inside(i, found_by_chunk[chunk]);
+        }
       }
     });
-    found.assign(apexes_.begin(), apexes_.end());
-    apexes_.clear();  // all belong to the segments of the first round
+    found.clear();
     for (const auto& part : found_by_chunk) {
       found.insert(found.end(), part.begin(), part.end());
     }

@@ -74,15 +74,17 @@ class EdgeChains {
   struct Found {
     std::uint32_t segment;
     Inside inside;
-    bool apex;  ///< of a dropped sliver: what closes over it needs it
   };
 
   std::uint32_t segment_between(std::uint32_t a, std::uint32_t b);
   double parameter(const Segment& segment, std::uint32_t vertex) const;
   bool is_smaller(std::uint32_t from, std::uint32_t to, const Segment& than) const;
   void plant_tree();
+  void lay_apexes();
+  void hand_down(std::uint32_t segment, std::uint32_t vertex);
   void find_inside(std::uint32_t segment, std::pmr::vector<Found>& found) const;
   bool are_twins(std::uint32_t segment, std::uint32_t a, std::uint32_t b) const;
+  void sort_along(std::span<Found> found) const;
   void lay_inside(std::span<Found> found);
   void divide(std::uint32_t segment);
 
@@ -92,7 +94,7 @@ class EdgeChains {
   IndexTable table_;
   std::pmr::vector<Inside> inside_;
   std::pmr::vector<std::uint32_t> children_;       ///< segments
-  std::pmr::vector<Found> apexes_;                 ///< of dropped slivers
+  std::pmr::vector<Found> apexes_;                 ///< of dropped slivers: what closes over these needs them
   std::pmr::vector<std::uint32_t> tree_vertices_;  ///< the vertices of triangles
   std::pmr::vector<bool> in_tree_;
   std::optional<BoxTree> tree_;

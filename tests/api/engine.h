@@ -24,6 +24,7 @@ struct Lends {
   bool memory = true;
   bool threads = plain_threads_wanted();  ///< a parallel_for of plain threads
   std::uint32_t thread_count = 2;
+  std::string embree_path{};  ///< empty: the system's; under the thread sanitizer the stand-in for it
 };
 
 class Engine {
@@ -52,6 +53,9 @@ class Engine {
       desc_.embree_path = RADVOR_STAND_IN_EMBREE;  // brute force, built with the sanitizer
     }
 #endif
+    if (!lends.embree_path.empty()) {
+      desc_.embree_path = lends.embree_path.c_str();
+    }
     EXPECT_EQ(radvor_context_create(&desc_, &context_), RADVOR_OK) << last_log();
   }
 

@@ -195,7 +195,7 @@ TEST(bounded_cells, across_a_continuous_seam) {
 TEST(bounded_cells, do_not_know_of_continuous_constraints) {
   std::mt19937_64 random(6);
   std::uniform_real_distribution<double> unit(0, 10);
-  for (int round = 0; round < 20; ++round) {
+  for (std::uint32_t round = 0; round < 20; ++round) {
     Scene with(round, 40, false), without(round, 40, false);
     const auto count = with.d.vertex_bound();
     int seams = 0;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -218,6 +219,34 @@ TEST_F(Weld, ARingOfNearlyEqualVerticesCostsNoGoodTriangle) {
     good += length(cross(w.positions[triangle.vertices[1]] - a, w.positions[triangle.vertices[2]] - a)) > 5e-6;
   }
   EXPECT_EQ(good, std::size_t{k_sides});  // one of each quad spans the rim, the other ends in the ring
+}
+
+// Found by RapidCheck. The tetrahedron's corner c lies on its side from a to b, and behind it, on that side too, lie
+// two corners of a leaf an ulp apart. Divided by itself, a-b took the one of these twins, and c-b the other.
+TEST_F(Weld, ADroppedSliversLongSideConsistsOfItsShortOnes) {
+  const float less = 1 - 0x1p-23f;
+  const glm::vec3 a(0, 3 * less, 3 * less), b(3 * less, 0, 0), c(less, 2 * less, 2 * less), o(0, 0, 0);
+  const glm::vec3 twin(2 * less, less, less), other_twin(2 * less, 1, less), p(0, 0, less);
+  build.polygon({a, b, c}).polygon({a, o, b}).polygon({b, o, c}).polygon({o, a, c});
+  build.polygon({o, twin, p}).polygon({twin, o, p}).polygon({o, other_twin, p}).polygon({other_twin, o, p});
+  const WeldedScene w = welded();
+  EXPECT_EQ(w.degenerate_triangles, 1u);
+  EXPECT_EQ(w.duplicate_triangles, 0u);
+  EXPECT_EQ(test::open_edges(w), 0u);
+}
+
+TEST_F(Weld, SliversThatShareTheirLongSideStayClosed) {
+  constexpr int k_slivers = 300;
+  const glm::vec3 a(0, 0, 0), b(1, 0, 0);
+  for (int i = 1; i < k_slivers; ++i) {
+    const float share = static_cast<float>(i) / k_slivers;
+    const glm::vec3 c(share, 0, 0), top(0.5f, std::cos(6 * share), std::sin(6 * share));
+    build.polygon({a, c, b}).polygon({a, b, top}).polygon({b, c, top}).polygon({c, a, top});
+  }
+  const WeldedScene w = welded();
+  EXPECT_EQ(w.degenerate_triangles, k_slivers - 1u);
+  EXPECT_EQ(w.t_junctions, k_slivers - 1u);
+  EXPECT_EQ(test::open_edges(w), 0u);
 }
 
 TEST_F(Weld, ADistanceWeldsWhatIsNear) {
