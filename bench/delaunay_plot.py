@@ -11,6 +11,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from PIL import Image
 
 
 def plot(results, picture):
@@ -31,6 +32,7 @@ def plot(results, picture):
         axes.spines[side].set_visible(False)
     figure.tight_layout()
     figure.savefig(picture)
+    Image.open(picture).convert("RGB").quantize(32).save(picture, optimize=True)
     print(picture)
 
 

@@ -33,6 +33,7 @@ void Triangulation::insert_many(std::span<const Vec2> points, VertexId* vertices
   };
   if (!from_nothing) {
     transact(work);
+    changed_.clear();
     make_hints();
     return;
   }
@@ -84,6 +85,9 @@ void Triangulation::insert_all(std::span<const Vec2> points, VertexId* vertices)
       prepare(point, location);
       ++vertex_count_;
       place(p, location);
+      if (steered_) {
+        report_star(p);  // its ties follow at the end of the transaction
+      }
     } else if (vertex_count_ == 1) {
       if (positions_[last_] == point) {
         duplicates.push_back({p, last_});
@@ -164,6 +168,9 @@ void Triangulation::renumber(VertexId first, std::span<const std::uint32_t> renu
     }
   }
   last_ = renamed(last_);
+  for (VertexId& vertex : changed_) {
+    vertex = renamed(vertex);
+  }
   positions_.resize(end);
   if (!values_.empty()) {
     values_.resize(end);

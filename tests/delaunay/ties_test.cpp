@@ -104,6 +104,39 @@ double least_cost(const std::vector<double>& v, std::size_t i, std::size_t j) {
   return best;
 }
 
+TEST(ties, touched_by_many_points_at_once_are_resolved_anew) {  // found by fuzzing
+  for (std::uint32_t seed = 0; seed < 20; ++seed) {
+    std::mt19937 random(seed);
+    Triangulation at_once(std::pmr::new_delete_resource()), one_by_one(std::pmr::new_delete_resource());
+    std::vector<double> values;
+    for (Triangulation* d : {&at_once, &one_by_one}) {
+      for (int i = 0; i < 7; ++i) {
+        for (int j = 0; j < 7; ++j) {
+          d->insert({2 * i, 2 * j});
+        }
+      }
+    }
+    for (int i = 0; i < 49; ++i) {
+      values.push_back(static_cast<double>(random() % 5));
+    }
+    std::vector<Vec2> more;
+    for (int i = 0; i < 12; ++i) {  // corners of the lattice, centres of its squares, and between
+      more.push_back({static_cast<double>(random() % 14), static_cast<double>(random() % 14)});
+    }
+    for (Triangulation* d : {&at_once, &one_by_one}) {
+      d->set_values(values, 0);
+      d->realign();
+    }
+    at_once.insert_many(more, nullptr);
+    ASSERT_NO_THROW(at_once.validate());
+    for (const Vec2 point : more) {
+      one_by_one.insert(point);
+    }
+    ASSERT_NO_THROW(one_by_one.validate());
+    EXPECT_EQ(canonical_triangles(at_once), canonical_triangles(one_by_one));
+  }
+}
+
 TEST(ties, of_many_corners_are_cheapest) {
   // The 12 integer points of x^2 + y^2 = 25 in order.
   const std::vector<Vec2> circle = {{5, 0},  {4, 3},   {3, 4},   {0, 5},  {-3, 4}, {-4, 3},
