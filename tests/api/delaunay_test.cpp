@@ -156,7 +156,7 @@ TEST(DelaunayApi, EdgesNeighboursAndHullAreThoseOfTheTriangles) {
     std::map<std::uint32_t, std::map<std::uint32_t, std::uint32_t>> following;  // around each vertex
     double area = 0;
     for (const auto& t : d.triangles()) {
-      for (int k = 0; k < 3; ++k) {
+      for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
         edges.insert({std::min(a, b), std::max(a, b)});
         following[a][b] = c;

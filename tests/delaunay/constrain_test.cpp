@@ -268,7 +268,7 @@ TEST(split, walks_through_slivers_beside_a_bent_chain) {
     }
     for (int i = 0; i < 40 && !edges.empty(); ++i) {
       const std::size_t k = random() % edges.size();
-      const auto [a, b] = edges[k];
+      const VertexId a = edges[k].first, b = edges[k].second;
       Vec2 p = (d.position(a) + d.position(b)) * 0.5;
       if (i % 4 == 0) {
         const Vec2 along = d.position(b) - d.position(a);
