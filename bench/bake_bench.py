@@ -96,7 +96,8 @@ def main():
             merge(options.json, {"machine": machine(), options.words[0]: study(scenes, options)})
             return
         for scene in scenes:
-            measured = curves.measure(scene, options)
+            before = json.loads(options.json.read_text()) if options.json.exists() else {}
+            measured = {**before.get("curves", {}).get(scene.name, {}), **curves.measure(scene, options)}
             rows = curves.summary(scene.name, measured)
             for row in rows:
                 print("  ".join(f"{k} {v:.3g}" if isinstance(v, float) else f"{k} {v}" for k, v in row.items()), flush=True)
