@@ -91,10 +91,12 @@ def summary(name, curves):
     for error in (0.05, 0.03, 0.02, 0.01):
         row = {"figure": figure, "error": error}
         for method, curve in curves.items():
-            row[method] = cost_at([r for r in curve if r.get("error")], figure, error)
-        reached = [r for r in curves.get("radvor", []) if r.get("error") and r["error"][figure] <= error]
-        if reached and row.get("tracer"):
-            receivers = reached[0]["sites"]
+            told = [r for r in curve if r.get("error")]
+            row[method] = cost_at(told, figure, error)
+            if method in ("radvor", "uniform"):
+                row[method + "_rays"] = cost_at(told, figure, error, "rays")
+        receivers = cost_at([r for r in curves.get("radvor", []) if r.get("error")], figure, error, "sites")
+        if receivers and row.get("tracer"):
             row["radvor_sites"] = receivers
             row["times_tracer"] = row["tracer"] / row["radvor"]
             row["times_tracer_at_equal_receivers"] = row["times_tracer"] * receivers / k_tracer_points

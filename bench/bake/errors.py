@@ -55,15 +55,15 @@ def errors(reference_file, values_file):
     }
 
 
-def cost_at(curve, figure, error):
-    """Interpolates a curve's processor seconds, straight in logarithms, where it first falls to an error; None where it
-    never does. Where its first point is below already, that point's seconds: an upper bound."""
-    points = sorted(((p["cpu_seconds"], p["error"][figure]) for p in curve), key=lambda p: p[0])
-    for i, (seconds, value) in enumerate(points):
+def cost_at(curve, figure, error, cost="cpu_seconds"):
+    """Interpolates a curve's cost, straight in logarithms, where it first falls to an error; None where it
+    never does. Where its first point is below already, that point's cost: an upper bound."""
+    points = [(p[cost], p["error"][figure]) for p in curve if p.get("finished", True)]
+    for i, (spent, value) in enumerate(points):
         if value <= error:
             if i == 0 or value <= 0:
-                return seconds
-            before_seconds, before = points[i - 1]
+                return spent
+            before_spent, before = points[i - 1]
             share = (math.log(before) - math.log(error)) / (math.log(before) - math.log(value))
-            return math.exp(math.log(before_seconds) * (1 - share) + math.log(seconds) * share)
+            return math.exp(math.log(before_spent) * (1 - share) + math.log(spent) * share)
     return None

@@ -30,9 +30,10 @@ def curves(data):
         for row in summary:
             rows.append([scene, f"{row['figure']} {percent(row['error'], 0)}",
                          *(seconds(row.get(method)) for method in ("radvor", "uniform", "tracer", "cycles")),
-                         times(row.get("times_tracer")), times(row.get("times_tracer_at_equal_receivers"))])
+                         times(row.get("times_tracer")), times(row.get("times_tracer_at_equal_receivers")),
+                         *(f"{row[m] / 1e6:.2f} M" if row.get(m) else "–" for m in ("radvor_rays", "uniform_rays"))])
     table(["scene", "error", "radvor", "uniform, all evaluated", "tracer", "Cycles", "tracer over radvor",
-           "at as many receivers"], rows)
+           "at as many receivers", "radvor's rays", "uniform's rays"], rows)
     rows = []
     for scene, methods in data.get("curves", {}).items():
         for method in ("radvor", "uniform", "cycles"):
