@@ -12,6 +12,7 @@
 #include "radiosity/refinement_plan.h"
 #include "radiosity/shooting_tree.h"
 #include "scene/find_contacts.h"
+#include "surface/near_contacts.h"
 
 namespace radvor {
 
@@ -72,10 +73,17 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
   facets.emplace(find_facets(scene, *welded, options.crease_angle, host));
   const SurfaceOptions spacing = choose_spacing(scene, *welded, *facets, options.spacing);
   if ((options.disable & Disable::intersections) == 0) {
-    const double elements = std::ldexp(spacing.patch_spacing, -static_cast<int>(spacing.element_levels));
-    find_contacts(scene, *welded, *facets, ContactLimits::at_spacing(elements), host);
+    find_contacts(scene, *welded, *facets, ContactLimits::at_spacing(finest_spacing(spacing)), host);
   }
   surface.emplace(scene, *welded, *facets, spacing, host);
+  for (auto wide = sites_wider_than_gaps(*surface, spacing, &host.memory); !wide.empty();) {
+    const std::size_t before = surface->sites().size();
+    surface->refine(wide, options.spacing.max_sites);
+    wide = sites_wider_than_gaps(*surface, spacing, &host.memory);
+    if (surface->sites().size() == before) {
+      break;  // there are as many as there may be
+    }
+  }
 
   std::pmr::vector<std::uint32_t> corners(&host.memory);
   for (std::uint32_t t = 0; t < welded->triangles.size(); ++t) {

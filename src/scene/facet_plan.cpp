@@ -17,6 +17,13 @@ Box box_around(const Vec2& a, const Vec2& b, double margin) {
 
 }  // namespace
 
+double distance_to_segment(const Vec2& point, const Vec2& a, const Vec2& b) {
+  const Vec2 along = b - a;
+  const double square = dot(along, along);
+  const double part = square > 0 ? std::clamp(dot(point - a, along) / square, 0.0, 1.0) : 0.0;
+  return glm::distance(point, a + part * along);
+}
+
 FacetPlan::FacetPlan(const WeldedScene& welded, const Facets& facets, std::uint32_t facet,
                      std::pmr::memory_resource* memory)
     : triangles_(memory), outline_(memory) {

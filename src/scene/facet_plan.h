@@ -25,6 +25,9 @@ struct Stretch {
   double from, to;
 };
 
+/// From a point to the nearest of a segment.
+double distance_to_segment(const Vec2& point, const Vec2& a, const Vec2& b);
+
 class FacetPlan {
  public:
   FacetPlan(const WeldedScene& welded, const Facets& facets, std::uint32_t facet, std::pmr::memory_resource* memory);

@@ -95,11 +95,11 @@ class ContactFinder {
         box.add(welded_.positions[vertex]);
       }
     }
-    if (!(length(box.high - box.low) >= limits_.spacing)) {
+    if (!(length(box.high - box.low) >= limits_.size)) {
       return;
     }
     const bool two_sided = scene_.materials[facets_.facets[facet].material].two_sided;
-    const TracedPlane plane(welded_, facets_, facet, two_sided);
+    const TracedPlane plane(welded_, facets_, facet, two_sided, limits_.reach);
     collect_traces(plane, box, traces);
     if (traces.empty()) {
       return;
@@ -107,6 +107,7 @@ class ContactFinder {
     const FacetPlan plan(welded_, facets_, facet, memory_);
     const ArrangementLimits limits{plane.tolerance(), limits_.least};
     clip(plan, limits.tolerance, traces);
+    drop_doubles(plan, traces);
     if (traces.size() > k_most_traces) {
       ++chunk.overfull;
       std::ranges::nth_element(traces, traces.begin() + k_most_traces, std::greater<>(),
@@ -122,13 +123,14 @@ class ContactFinder {
 
   void collect_traces(const TracedPlane& plane, const Box& facet_box, std::pmr::vector<Trace>& traces) const {
     traces.clear();
-    const Vec3 margin(plane.tolerance());
+    const double near = limits_.reach + 2 * plane.tolerance();
+    const Vec3 margin(near);
     const Box box{facet_box.low - margin, facet_box.high + margin};
     const Vec3 normal = plane.frame().normal;
     const auto meets_plane = [&](const Box& node) {
       const Vec3 half = 0.5 * (node.high - node.low);
       const double reach = std::abs(normal.x) * half.x + std::abs(normal.y) * half.y + std::abs(normal.z) * half.z;
-      return std::abs(plane.height(node.low + half)) <= reach + 2 * plane.tolerance();
+      return std::abs(plane.height(node.low + half)) <= reach + near;
     };
     tree_->walk([&](const Box& node) { return node.overlaps(box) && meets_plane(node); },
                 [&](std::uint32_t i) { plane.trace(casters_[i], traces); });
@@ -147,6 +149,27 @@ class ContactFinder {
       }
     }
     traces = std::move(clipped);
+  }
+
+  // A near surface whose outline runs beside a contact, or beside the facet's own, adds nothing to it: a bevel above
+  // the foot of a box. Nor does one that is smaller than its gap.
+  void drop_doubles(const FacetPlan& plan, std::pmr::vector<Trace>& traces) const {
+    std::pmr::vector<Trace> touching(memory_);
+    std::ranges::copy_if(traces, std::back_inserter(touching), [](const Trace& trace) { return trace.gap == 0; });
+    const auto is_beside = [&](const Trace& trace, const Vec2& a, const Vec2& b) {
+      return distance_to_segment(trace.a, a, b) < limits_.least && distance_to_segment(trace.b, a, b) < limits_.least;
+    };
+    std::erase_if(traces, [&](const Trace& trace) {
+      if (trace.gap == 0) {
+        return false;
+      }
+      bool beside = glm::distance(trace.a, trace.b) < trace.gap;
+      plan.for_each_edge_near(trace.a, trace.b, limits_.least, [&](std::uint32_t e) {
+        beside = beside || is_beside(trace, plan.outline()[e].from, plan.outline()[e].to);
+      });
+      return beside ||
+             std::ranges::any_of(touching, [&](const Trace& other) { return is_beside(trace, other.a, other.b); });
+    });
   }
 
   template <class Function>

@@ -10,11 +10,13 @@
 namespace radvor {
 
 struct ContactLimits {
-  double spacing;  ///< of the first elements, scene units > 0: facets smaller than it get no contacts
-  double least;    ///< connected contacts smaller than this are left out; 0: none
+  double size;   ///< scene units >= 0: facets smaller than it get no contacts
+  double least;  ///< connected contacts smaller than this are left out; 0: none
+  double reach;  ///< surfaces no farther apart than this are near each other; 0: those that touch alone
 
-  /// An eighth of the spacing is left out: what is in the dark there is less than a hundredth of a cell.
-  static ContactLimits at_spacing(double spacing) { return {spacing, spacing / 8}; }
+  /// finest: the smallest spacing there can be between sites, scene units. What lies in the dark of a contact that is
+  /// left out is less than a quarter of the smallest cell.
+  static ContactLimits at_spacing(double finest) { return {2 * finest, 0.5 * finest, 4 * finest}; }
 };
 
 /// Adds contact edges, and facets.contacts that names them, for facets of meshes that receive, from the triangles of
@@ -23,6 +25,10 @@ struct ContactLimits {
 /// in
 ///   its plane, leaves those of its edges that lie there. A facet with one side takes no notice of what stays behind
 ///   it.
+/// - A triangle that is near above a facet, and about parallel to it, leaves those of its edges where the surface ends
+/// as
+///   seen along the facet's normal, with the gap: until sites are that close to each other the light there is not
+///   resolved.
 /// - Ends inside the facet become welded vertices. Where a segment ends on the facet's outline, or crosses an edge
 /// within it, the welded edge is divided by a new
 ///   vertex, so that all facets at that edge have it.

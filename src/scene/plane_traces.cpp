@@ -8,9 +8,23 @@
 #include "scene/shape.h"
 
 namespace radvor {
+namespace {
 
-TracedPlane::TracedPlane(const WeldedScene& welded, const Facets& facets, std::uint32_t facet, bool two_sided)
-    : welded_(welded), facets_(facets), facet_(facet), frame_(facets.facets[facet].frame), two_sided_(two_sided) {
+// Edges that rise more steeply above the plane leave what is near it too soon to be worth a trace.
+constexpr double k_steepest = 0.5;
+// A triangle whose projection is no thicker than this part of its edge is upright above the edge.
+constexpr double k_upright = 1e-4;
+
+}  // namespace
+
+TracedPlane::TracedPlane(const WeldedScene& welded, const Facets& facets, std::uint32_t facet, bool two_sided,
+                         double reach)
+    : welded_(welded),
+      facets_(facets),
+      facet_(facet),
+      frame_(facets.facets[facet].frame),
+      two_sided_(two_sided),
+      reach_(reach) {
   Box box;
   for (const std::uint32_t t : facets.triangles_of(facet)) {
     for (const std::uint32_t vertex : welded.triangles[t].vertices) {
@@ -57,6 +71,9 @@ void TracedPlane::trace(std::uint32_t index, std::pmr::vector<Trace>& traces) co
   } else if (in_plane >= 2) {
     trace_edges(index, traces);
   }
+  if (reach_ > 0 && in_plane < 3) {
+    trace_near(index, traces);
+  }
 }
 
 // From where one side of the triangle crosses the plane to where another does; a corner in the plane is such a place.
@@ -89,6 +106,57 @@ void TracedPlane::trace_edges(std::uint32_t triangle, std::pmr::vector<Trace>& t
       traces.push_back({project(welded_.positions[edge.a]), project(welded_.positions[edge.b]), 0.0});
     }
   }
+}
+
+// The parts of a triangle's edges that are above the plane and near it, where the surface they bound ends as seen along
+// the normal: there the light on the plane changes within about the gap.
+void TracedPlane::trace_near(std::uint32_t triangle, std::pmr::vector<Trace>& traces) const {
+  for (const EdgeUse& use : welded_.uses_of_triangle(triangle)) {
+    const Vec3& a = welded_.positions[welded_.edges[use.edge].a];
+    const Vec3& b = welded_.positions[welded_.edges[use.edge].b];
+    const double height_a = height(a);
+    const double height_b = height(b);
+    if (two_sided_ ? height_a * height_b < 0 : std::min(height_a, height_b) < -tolerance_) {
+      continue;
+    }
+    const double gap_a = std::abs(height_a);
+    const double rise = std::abs(height_b) - gap_a;
+    const Vec2 from = project(a);
+    const Vec2 along = project(b) - from;
+    if (std::min(gap_a, gap_a + rise) > reach_ || std::max(gap_a, gap_a + rise) <= tolerance_ ||
+        std::abs(rise) > k_steepest * length(along) || !is_silhouette(use.edge)) {
+      continue;
+    }
+    const double top = (reach_ - gap_a) / rise;  // where it leaves what is near
+    const double begin = rise < 0 ? std::max(0.0, top) : 0.0;
+    const double end = rise > 0 ? std::min(1.0, top) : 1.0;
+    traces.push_back({from + begin * along, from + end * along, gap_a + 0.5 * (begin + end) * rise});
+  }
+}
+
+// Whether the surface at an edge is on one side of it alone, as seen along the normal.
+bool TracedPlane::is_silhouette(std::uint32_t edge) const {
+  if (facets_.edge_kinds[edge] != EdgeKind::sharp) {
+    return false;
+  }
+  const Vec2 a = project(welded_.positions[welded_.edges[edge].a]);
+  const Vec2 along = project(welded_.positions[welded_.edges[edge].b]) - a;
+  bool left = false;
+  bool right = false;
+  for (const std::uint32_t use : welded_.uses_at_edge(edge)) {
+    const std::uint32_t triangle = welded_.uses_by_triangle[use].triangle;
+    if (facets_.facet_of_triangle[triangle] == facet_) {
+      return false;
+    }
+    double farthest = 0;
+    for (const std::uint32_t vertex : welded_.triangles[triangle].vertices) {
+      const double side = cross(along, project(welded_.positions[vertex]) - a);
+      farthest = std::abs(side) > std::abs(farthest) ? side : farthest;
+    }
+    left = left || farthest > k_upright * dot(along, along);
+    right = right || farthest < -k_upright * dot(along, along);
+  }
+  return !(left && right);
 }
 
 // No edge of the facet's own, and none across which a surface that lies in the plane goes on in it.

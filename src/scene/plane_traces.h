@@ -1,4 +1,5 @@
-// The trace that a triangle leaves in a facet's plane: where it cuts through the plane, stands on it or lies in it.
+// The trace that a triangle leaves in a facet's plane: where it cuts through the plane, stands on it, lies in it, or
+// ends closely above it.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +14,14 @@ namespace radvor {
 /// A segment in a facet's frame, not clipped to the facet and not snapped.
 struct Trace {
   Vec2 a, b;
-  double gap;  ///< 0: touches or cuts
+  double gap;  ///< 0: touches or cuts; else how high above the plane it is
 };
 
 /// A facet as what others leave traces on.
 class TracedPlane {
  public:
-  TracedPlane(const WeldedScene& welded, const Facets& facets, std::uint32_t facet, bool two_sided);
+  /// reach: what is no higher above the plane is close to it.
+  TracedPlane(const WeldedScene& welded, const Facets& facets, std::uint32_t facet, bool two_sided, double reach);
 
   /// Appends what a triangle of another facet leaves. Traces that are edges of the facet's own triangles are left out:
   /// they are its outline. A facet with one side sees nothing that stays behind its plane.
@@ -45,7 +47,9 @@ class TracedPlane {
   };
   void trace_cut(const std::array<Corner, 3>& corners, std::pmr::vector<Trace>& traces) const;
   void trace_edges(std::uint32_t triangle, std::pmr::vector<Trace>& traces) const;
+  void trace_near(std::uint32_t triangle, std::pmr::vector<Trace>& traces) const;
   bool is_end_of_contact(std::uint32_t edge) const;
+  bool is_silhouette(std::uint32_t edge) const;
   bool lies_in_plane(std::uint32_t vertex) const;
   bool lies_in_plane(const Triangle& triangle) const;
 
@@ -54,7 +58,7 @@ class TracedPlane {
   std::uint32_t facet_;
   const Frame& frame_;
   bool two_sided_;
-  double precision_ = 0, size_ = 0, tolerance_ = 0;
+  double precision_ = 0, size_ = 0, tolerance_ = 0, reach_;
 };
 
 }  // namespace radvor

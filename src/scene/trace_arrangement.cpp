@@ -17,6 +17,9 @@ constexpr double k_on_trace = 1.25;
 // Pieces on the outline are gone when the rest is asked whether it is inside.
 constexpr double k_beside_outline = 0.25;
 
+// Of a trace beside the outline, in tolerances: down to angles of two degrees.
+constexpr double k_graze = 32;
+
 Box box_around(const Vec2& a, const Vec2& b, double margin) {
   Box box;
   box.add(Vec3(glm::min(a, b) - margin, 0.0));
@@ -48,6 +51,7 @@ class Arranger {
     leave_outline();
     join_collinear();
     drop_small();
+    drop_grazes();
     drop_unused();
     return std::move(graph_);
   }
@@ -189,35 +193,32 @@ class Arranger {
   }
 
   void leave_outline() {
+    const auto is_inside = [](const GraphPoint& point) { return point.vertex == k_none && point.edge == k_none; };
     std::erase_if(graph_.segments, [&](const GraphSegment& segment) {
-      const std::uint32_t edge = outline_edge_along(segment);
+      const GraphPoint& a = graph_.points[segment.a];
+      const GraphPoint& b = graph_.points[segment.b];
+      const std::uint32_t edge = outline_edge_along(a.position, b.position);
       if (edge != k_none) {
-        graph_.covered.push_back({edge, segment.a, segment.b});
+        if (!is_inside(a) && !is_inside(b)) {
+          graph_.covered.push_back({edge, segment.a, segment.b});
+        }
         return true;
       }
-      const Vec2 middle = 0.5 * (graph_.points[segment.a].position + graph_.points[segment.b].position);
-      return !plan_.contains(middle, k_beside_outline * limits_.tolerance);
+      return !plan_.contains(0.5 * (a.position + b.position), k_beside_outline * limits_.tolerance);
     });
   }
 
-  bool lies_on(const GraphPoint& point, std::uint32_t edge) const {
-    return point.edge == edge || (point.vertex != k_none &&
-                                  (point.vertex == plan_.outline()[edge].a || point.vertex == plan_.outline()[edge].b));
-  }
-
-  std::uint32_t outline_edge_along(const GraphSegment& segment) const {
-    const GraphPoint& a = graph_.points[segment.a];
-    const GraphPoint& b = graph_.points[segment.b];
-    if ((a.vertex == k_none && a.edge == k_none) || (b.vertex == k_none && b.edge == k_none)) {
-      return k_none;
-    }
+  // By distance alone: corners of the outline may be nearer to each other than the tolerance, and then stand for each
+  // other.
+  std::uint32_t outline_edge_along(const Vec2& a, const Vec2& b) const {
+    const double near = k_on_trace * limits_.tolerance;
     std::uint32_t found = k_none;
-    plan_.for_each_edge_near(0.5 * (a.position + b.position), 0.5 * (a.position + b.position), limits_.tolerance,
-                             [&](std::uint32_t e) {
-                               if (lies_on(a, e) && lies_on(b, e)) {
-                                 found = std::min(found, e);
-                               }
-                             });
+    plan_.for_each_edge_near(0.5 * (a + b), 0.5 * (a + b), near, [&](std::uint32_t e) {
+      const PlanEdge& edge = plan_.outline()[e];
+      if (distance_to_segment(a, edge.from, edge.to) <= near && distance_to_segment(b, edge.from, edge.to) <= near) {
+        found = std::min(found, e);
+      }
+    });
     return found;
   }
 
@@ -277,6 +278,17 @@ class Arranger {
     std::erase_if(graph_.segments, [&](const GraphSegment& segment) {
       const Box& box = boxes[sets.find(segment.a)];
       return length(box.high - box.low) < std::max(limits_.least, limits_.tolerance);
+    });
+  }
+
+  // A trace that only leaves the facet at a sharp angle runs beside its outline for a while: too short to be meant.
+  void drop_grazes() {
+    std::pmr::vector<double> covered(plan_.outline().size(), 0.0, memory_);
+    for (const CoveredStretch& stretch : graph_.covered) {
+      covered[stretch.edge] += glm::distance(graph_.points[stretch.a].position, graph_.points[stretch.b].position);
+    }
+    std::erase_if(graph_.covered, [&](const CoveredStretch& stretch) {
+      return covered[stretch.edge] < std::max(limits_.least, k_graze * limits_.tolerance);
     });
   }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "surface/lattice.h"
+
 namespace radvor {
 
 namespace {
@@ -62,6 +64,10 @@ double scaled_down(double spacing, std::uint32_t levels) {
 }
 
 }  // namespace
+
+double finest_spacing(const SurfaceOptions& options) {
+  return scaled_down(options.patch_spacing, options.element_levels + refinements(options));
+}
 
 SurfaceOptions choose_spacing(const Scene& scene, const WeldedScene& welded, const Facets& facets,
                               const SpacingRequest& request) {

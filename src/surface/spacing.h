@@ -21,6 +21,9 @@ struct SpacingRequest {
   bool refines = false;  ///< the first elements are the patches where it is left open, and refinement does the rest
 };
 
+/// The smallest spacing that refinement comes down to.
+double finest_spacing(const SurfaceOptions& options);
+
 /// Resolved so that the scene has about 30 / tolerance patches and, at the first elements' spacing, no more sites than
 /// max_sites (estimated from areas and border lengths). Where refinement is on it
 /// goes down to a sixteenth of the patches' spacing if min_spacing is left open; where it is off there is none.

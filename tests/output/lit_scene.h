@@ -15,9 +15,11 @@
 #include "base/host.h"
 #include "output/lit_surface.h"
 #include "scene/facets.h"
+#include "scene/find_contacts.h"
 #include "scene/scene.h"
 #include "scene/welded.h"
 #include "support/plain_threads.h"
+#include "surface/spacing.h"
 #include "surface/surface.h"
 
 namespace radvor::output_test {
@@ -125,7 +127,7 @@ class LitScene {
               Jobs(2, nullptr, nullptr, heap())},
         scene_(assemble(std::move(meshes), materials)),
         welded_(weld(scene_, 0, host_)),
-        facets_(find_facets(scene_, welded_, k_crease, host_)),
+        facets_(facets_of(scene_, welded_, options(patch_spacing), host_)),
         surface_(scene_, welded_, facets_, options(patch_spacing), host_),
         direct_(surface_.samples().size(), Color(0.0)),
         indirect_(direct_) {}
@@ -174,6 +176,12 @@ class LitScene {
       scene.meshes.push_back(std::move(mesh));
     }
     return scene;
+  }
+
+  static Facets facets_of(const Scene& scene, WeldedScene& welded, const SurfaceOptions& options, Host& host) {
+    Facets facets = find_facets(scene, welded, k_crease, host);
+    find_contacts(scene, welded, facets, ContactLimits::at_spacing(finest_spacing(options)), host);
+    return facets;
   }
 
   static SurfaceOptions options(double patch_spacing) {

@@ -23,11 +23,12 @@ namespace {
 using test::SceneBuilder;
 
 struct Found {
-  explicit Found(const Scene& given, double spacing = 0.01, double least = 0, std::uint32_t threads = 2)
+  explicit Found(const Scene& given, double spacing = 0.01, double least = 0, std::uint32_t threads = 2,
+                 double reach = 0)
       : host(threads), scene(given), welded(weld(scene, 0, host)) {
     facets.emplace(find_facets(scene, welded, std::numbers::pi / 6, host));
     vertices_before = welded.positions.size();
-    find_contacts(scene, welded, *facets, {spacing, least}, host);
+    find_contacts(scene, welded, *facets, {spacing, least, reach}, host);
     EXPECT_EQ(test::audit(welded), "");
     EXPECT_EQ(test::audit(welded, *facets), "");
   }
@@ -268,6 +269,29 @@ TEST(Contacts, ASmoothEdgeWithAWallOnItIsSharp) {
   EXPECT_TRUE(found.facets->contacts.of_facet(found.facet_at({1, 1, 0.05}, {0, 0, 1})).empty());
 }
 
+TEST(Contacts, NeighboursAtASharpAngleDoNotDivideSmoothEdges) {
+  // A tube of narrow quads with normals of its own: each triangle is a facet, and lies in its neighbour's plane.
+  SceneBuilder builder(heap());
+  Mesh& mesh = builder.mesh();
+  for (std::uint32_t k = 0; k < 24; ++k) {
+    const double angle = 2 * std::numbers::pi * k / 24;
+    for (const float z : {0.0f, 2.0f}) {
+      mesh.positions.emplace_back(std::cos(angle), std::sin(angle), z);
+      mesh.normals.emplace_back(std::cos(angle), std::sin(angle), 0.0f);
+    }
+    const std::uint32_t a = 2 * k;
+    const std::uint32_t b = 2 * ((k + 1) % 24);
+    mesh.indices.insert(mesh.indices.end(), {a, b, b + 1, a, b + 1, a + 1});
+    mesh.triangle_materials.insert(mesh.triangle_materials.end(), {0, 0});
+  }
+  for (const double least : {0.0, 0.04}) {
+    const Found found(builder.scene, 0.01, least, 2, 0.1);
+    EXPECT_TRUE(found.facets->contacts.edges.empty());
+    EXPECT_EQ(found.divisions(), 0u);
+    EXPECT_EQ(std::ranges::count(found.facets->edge_kinds, EdgeKind::sharp), 48);
+  }
+}
+
 TEST(Contacts, ClosedSmoothBodiesAndRoomsHaveNone) {
   SceneBuilder builder(heap());
   builder.cylinder(40, 1.0f, 2.0f);
@@ -286,6 +310,51 @@ TEST(Contacts, WhatIsTooSmallIsLeftOut) {
   EXPECT_EQ(Found(builder.scene, 0.5, 0.2).facets->contacts.edges.size(), 0u);
   EXPECT_EQ(Found(builder.scene, 0.5, 0.1).facets->contacts.edges.size(), 4u);
   EXPECT_EQ(Found(builder.scene, 20, 0).facets->contacts.edges.size(), 0u);  // no facet is as large as the spacing
+}
+
+TEST(Contacts, ALampJustUnderACeilingLeavesItsOutlineAndTheGap) {
+  SceneBuilder builder(heap());
+  builder.polygon({{0, 0, 3}, {0, 10, 3}, {10, 10, 3}, {10, 0, 3}});  // faces down
+  builder.mesh();
+  builder.box({3, 4, 2.5f}, {5, 6, 2.99f});
+  const auto outline = [](int z) {
+    std::vector<Found::Line> lines = k_footprint;
+    for (Found::Line& line : lines) {
+      line[2] = line[5] = z;
+    }
+    return lines;
+  };
+  const Found found(builder.scene, 0.1, 0.01, 2, 0.1);
+  const std::uint32_t ceiling = found.facet_at({1, 1, 3}, {0, 0, -1});
+  EXPECT_EQ(found.lines_on(ceiling), outline(3000));
+  for (const ContactEdge& contact : found.facets->contacts.of_facet(ceiling)) {
+    EXPECT_NEAR(contact.gap, 0.01, 1e-6);
+  }
+  EXPECT_EQ(found.facets->contacts.edges.size(), 4u);  // the lamp's top is in the middle of the ceiling's shadow
+  EXPECT_TRUE(Found(builder.scene, 0.1, 0.01, 2, 0.005).facets->contacts.edges.empty());
+  EXPECT_TRUE(Found(builder.scene, 0.1, 0.01, 2, 0).facets->contacts.edges.empty());
+}
+
+TEST(Contacts, AShelfOfGlassAboveAFloorHasOneOutline) {
+  // Top and bottom of a thin plate have the same outline: the nearer one's gap counts. What leans away leaves what is
+  // near it soon, and the foot of a box is no near surface as well.
+  SceneBuilder builder(heap());
+  floor_of(builder, 10);
+  builder.mesh();
+  builder.box({3, 4, 0.02f}, {5, 6, 0.03f});
+  builder.mesh();
+  builder.box({7, 7, 0}, {8, 8, 1});
+  builder.mesh();
+  builder.polygon({{1, 8, 0.02f}, {2, 8, 0.02f}, {2, 9, 1.02f}, {1, 9, 1.02f}}, 2);
+  const Found found(builder.scene, 0.1, 0.01, 2, 0.1);
+  const std::uint32_t floor = found.facet_at({1, 1, 0}, {0, 0, 1});
+  std::size_t touching = 0;
+  for (const ContactEdge& contact : found.facets->contacts.of_facet(floor)) {
+    touching += contact.gap == 0 ? 1 : 0;
+    EXPECT_TRUE(contact.gap == 0 || std::abs(contact.gap - 0.02) < 1e-6) << contact.gap;
+  }
+  EXPECT_EQ(touching, 4u);
+  EXPECT_EQ(found.facets->contacts.of_facet(floor).size(), 4u + 4u + 1u);
 }
 
 SceneBuilder random_boxes(std::uint32_t seed, int count) {

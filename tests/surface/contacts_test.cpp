@@ -10,6 +10,7 @@
 #include "scene/box_tree.h"
 #include "scene/shape.h"
 #include "surface/made_surface.h"
+#include "surface/near_contacts.h"
 #include "surface/solids.h"
 
 namespace radvor {
@@ -108,6 +109,40 @@ TEST(ContactSites, PatchesStayOnOneSideOfAWall) {
       }
       EXPECT_FALSE(left && right) << "patch " << p << " at spacing " << spacing;
     }
+  }
+}
+
+TEST(ContactSites, AboutALampUnderACeilingTheSpacingComesDownToTheGap) {
+  for (const double gap : {0.1, 0.02}) {
+    SceneBuilder builder(heap());
+    builder.quad({0, 0, 3}, {0, 4, 3}, {4, 4, 3}, {4, 0, 3});
+    builder.begin_mesh();
+    builder.box({1.1, 1.3, 2.5}, {2.3, 2.9, 3 - gap}, false);
+    const SurfaceOptions options{Lattice::hexagonal, 0.4, 0, 0.05};
+    MadeSurface made(builder.take(), options);
+    ASSERT_EQ(made.facets.contacts.edges.size(), 4u);
+    EXPECT_NEAR(made.facets.contacts.edges[0].gap, gap, 1e-6);
+    std::pmr::vector<std::uint32_t> wide(heap());
+    while (!(wide = sites_wider_than_gaps(made.surface, options, heap())).empty()) {
+      made.surface.refine(wide);
+    }
+    test::audit(made);
+    test::audit_cells(made);
+    // No edge of a triangle at the outline is longer than a hexagon's, where the spacing can be had.
+    const double spacing = std::max(gap, 0.05);
+    std::size_t at_outline = 0;
+    for (const ShareTriangle& triangle : made.surface.triangles(0)) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Site& a = test::site_of(made.surface, triangle[k]);
+        const Site& b = test::site_of(made.surface, triangle[(k + 1) % 3]);
+        if (a.edge != k_none && a.edge >= made.facets.contacts.edges[0].edge) {
+          EXPECT_LT(glm::distance(a.position, b.position), 2.01 * spacing);
+          ++at_outline;
+        }
+      }
+    }
+    EXPECT_GT(at_outline, 5.0 / spacing);
+    EXPECT_LT(made.surface.sites().size(), 4.0 * 4.0 / (spacing * spacing));  // and not everywhere
   }
 }
 

@@ -42,8 +42,8 @@ struct MadeSurface {
   Facets facets_of(const SurfaceOptions& options, Touching touching) {
     Facets found = find_facets(scene, welded, std::numbers::pi / 6, host);
     if (touching != Touching::ignored) {
-      const double spacing = std::ldexp(options.patch_spacing, -static_cast<int>(options.element_levels));
-      ContactLimits limits = ContactLimits::at_spacing(spacing);
+      // The same however often it is refined.
+      ContactLimits limits = ContactLimits::at_spacing(options.patch_spacing / 4);
       limits.least = touching == Touching::however_small ? 0 : limits.least;
       find_contacts(scene, welded, found, limits, host);
     }

@@ -29,8 +29,7 @@ TEST_P(RealScene, BecomesASurface) {
   Facets facets = find_facets(*scene, welded, std::numbers::pi / 6, host);
   const SurfaceOptions options = choose_spacing(*scene, welded, facets, {});
   const std::clock_t contacts_start = std::clock();
-  const double spacing = std::ldexp(options.patch_spacing, -static_cast<int>(options.element_levels));
-  find_contacts(*scene, welded, facets, ContactLimits::at_spacing(spacing), host);
+  find_contacts(*scene, welded, facets, ContactLimits::at_spacing(finest_spacing(options)), host);
   const double contact_seconds = static_cast<double>(std::clock() - contacts_start) / CLOCKS_PER_SEC;
   EXPECT_LT(contact_seconds, 30) << "not in proportion to the size";  // at most 1 s in a release build
   EXPECT_EQ(test::audit(welded), "");
@@ -134,8 +133,7 @@ TEST_P(RealScene, IsRefinedAlongAPlane) {
   SpacingRequest request;
   request.refines = true;
   const SurfaceOptions options = choose_spacing(*scene, welded, facets, request);
-  const double spacing = std::ldexp(options.patch_spacing, -static_cast<int>(options.element_levels));
-  find_contacts(*scene, welded, facets, ContactLimits::at_spacing(spacing), host);
+  find_contacts(*scene, welded, facets, ContactLimits::at_spacing(finest_spacing(options)), host);
   Surface surface(*scene, welded, facets, options, host);
   const std::size_t before = surface.sites().size();
   const std::vector<double> areas_before = areas_of_facets(surface, facets.facets.size());
