@@ -47,8 +47,8 @@ FacetPlan::FacetPlan(const WeldedScene& welded, const Facets& facets, std::uint3
   }
   triangle_tree_.emplace(boxes, memory);
   std::ranges::sort(outline_, {}, &PlanEdge::edge);
-  const auto doubles = std::ranges::unique(outline_, {}, &PlanEdge::edge);  // slits have the facet on both sides
-  outline_.erase(doubles.begin(), doubles.end());
+  const auto same_edge = [](const PlanEdge& a, const PlanEdge& b) { return a.edge == b.edge; };
+  outline_.erase(std::unique(outline_.begin(), outline_.end(), same_edge), outline_.end());  // slits are there twice
   boxes.clear();
   for (const PlanEdge& edge : outline_) {
     boxes.push_back(box_around(edge.from, edge.to, 0.0));
