@@ -44,6 +44,7 @@ Refinement::Refinement(SurfaceParts& parts)
       edges_(parts.memory),
       ground_of_(parts.records.size(), k_none, parts.memory),
       grounds_(parts.memory),
+      irregular_(parts.memory),
       pending_(parts.memory),
       raised_(parts.memory),
       first_new_(static_cast<std::uint32_t>(parts.sites.size())) {
@@ -166,7 +167,12 @@ bool Refinement::is_lattice_facet(std::uint32_t facet) const {
 const FacetGround& Refinement::ground(std::uint32_t facet) {
   if (ground_of_[facet] == k_none) {
     ground_of_[facet] = static_cast<std::uint32_t>(grounds_.size());
-    grounds_.emplace_back().emplace(parts_.input(facet));
+    FacetGround& made = grounds_.emplace_back().emplace(parts_.input(facet));
+    for (const InnerSite& site : irregular_) {
+      if (parts_.places[site.site].facet == facet) {
+        made.add(site);
+      }
+    }
   }
   return *grounds_[ground_of_[facet]];
 }
@@ -186,26 +192,24 @@ double Refinement::clearance_of(std::uint32_t site, double limit) {
 
 void Refinement::raise(std::span<const std::uint32_t> sites, std::uint32_t max_sites) {
   clearance_.resize(parts_.sites.size(), -1.0);
-  first_new_ = static_cast<std::uint32_t>(parts_.sites.size());
   const std::pmr::vector<std::uint8_t> levels(parts_.levels, parts_.memory);  // a site named twice rises once
   for (const std::uint32_t site : sites) {
     const std::size_t before = parts_.sites.size();
     const auto level = static_cast<std::uint8_t>(levels[site] + 1);
-    if (level <= finest_ && !raise_with_balance(site, level, max_sites > 0 ? max_sites : k_none)) {
-      roll_back(before);
-      break;
+    if (level <= finest_) {
+      raised_.clear();
+      need(site, level);
+      if (!balance(max_sites > 0 ? max_sites : k_none)) {
+        roll_back(before);
+        break;
+      }
     }
-  }
-  for (std::uint32_t site = first_new_; site < parts_.sites.size(); ++site) {
-    find_parents(site);
   }
 }
 
-// False where there would be too many sites; then what was done is to be undone.
-bool Refinement::raise_with_balance(std::uint32_t site, std::uint8_t level, std::size_t max_sites) {
-  raised_.clear();
-  pending_.clear();
-  need(site, level);
+// Raises what is pending, and all that this asks for. False where there would be too many sites; then what was done is
+// to be undone.
+bool Refinement::balance(std::size_t max_sites) {
   while (!pending_.empty()) {
     const Raising next = pending_.back();
     std::uint8_t& now = parts_.levels[next.site];
@@ -227,8 +231,13 @@ bool Refinement::raise_with_balance(std::uint32_t site, std::uint8_t level, std:
 }
 
 void Refinement::roll_back(std::size_t site_count) {
+  pending_.clear();
   for (const std::uint32_t site : raised_) {
     --parts_.levels[site];
+  }
+  while (!irregular_.empty() && irregular_.back().site >= site_count) {
+    ground_of_[parts_.places[irregular_.back().site].facet] = k_none;  // to be made without it
+    irregular_.pop_back();
   }
   parts_.sites.resize(site_count);
   parts_.places.resize(site_count);
@@ -435,9 +444,7 @@ void Refinement::settle(std::uint32_t facet, std::uint8_t level, const Vec2& low
       need(site, level);
     }
   };
-  for (const InnerSite& given : parts_.given_on(facet)) {
-    settle_border(given.site);
-  }
+  on.for_each_site_near(low, high, settle_border);
   const Vec3 middle = on.frame().to_world(0.5 * (low + high));
   const double reach = glm::distance(low, high);
   std::uint32_t last_edge = k_none;
@@ -472,6 +479,69 @@ void Refinement::follow_marks(std::uint32_t site, std::uint32_t facet, const Vec
   }
 }
 
+// ---- Irregular sites
+
+void Refinement::insert(std::span<const WantedSite> wanted, std::uint32_t max_sites) {
+  clearance_.resize(parts_.sites.size(), -1.0);
+  const std::size_t most = max_sites > 0 ? max_sites : k_none;
+  const std::size_t first = irregular_.size();
+  for (const WantedSite& wish : wanted) {
+    const std::size_t before = parts_.sites.size();
+    if (before >= most) {
+      break;
+    }
+    if (!is_lattice_facet(wish.facet)) {
+      continue;
+    }
+    const Vec2 point = ground(wish.facet).frame().to_plane(wish.position);
+    if (!is_free(wish.facet, point)) {
+      continue;
+    }
+    const std::uint8_t level = level_at(wish.facet, point);
+    const std::uint32_t site =
+        append(ground(wish.facet).frame().to_world(point), level, {wish.facet, false, {0, 0}}, 0);
+    irregular_.push_back({point, site, false, false});
+    grounds_[ground_of_[wish.facet]]->add(irregular_.back());
+    raised_.clear();
+    follow_marks(site, wish.facet, point);
+    if (level > 1) {
+      mark(wish.facet, static_cast<std::uint8_t>(level - 1), point);
+    }
+    if (!balance(most)) {
+      roll_back(before);
+      break;
+    }
+  }
+  if (irregular_.size() > first) {
+    // Lattice sites near them may be nearer to an obstacle than was known.
+    for (std::uint32_t site = 0; site < parts_.sites.size(); ++site) {
+      clearance_[site] = parts_.places[site].on_lattice ? -1.0 : clearance_[site];
+    }
+  }
+}
+
+// Far enough from borders and other sites.
+bool Refinement::is_free(std::uint32_t facet, const Vec2& point) {
+  const FacetGround& on = ground(facet);
+  const double apart = 0.25 * spacing(finest_);
+  if (!on.encloses(point) || on.clearance(point, 2 * apart) < apart) {
+    return false;
+  }
+  const LatticeIndex index = on.lattice().nearest(lattice_finest_, point);
+  return glm::distance(on.lattice().point(lattice_finest_, index), point) >= apart ||
+         find_lattice_site(facet, index) == k_none;
+}
+
+// The highest among the corners of the triangle that the point was in before.
+std::uint8_t Refinement::level_at(std::uint32_t facet, const Vec2& point) const {
+  const FacetPoint found = parts_.located(facet).locate(point);
+  std::uint8_t level = 0;
+  for (const std::uint32_t share : found.shares) {
+    level = std::max(level, parts_.levels[parts_.samples[parts_.shares[share].sample].site]);
+  }
+  return level;
+}
+
 // ---- What came out
 
 void Refinement::find_parents(std::uint32_t index) {
@@ -484,7 +554,7 @@ void Refinement::find_parents(std::uint32_t index) {
     return a != k_none && b != k_none;
   };
   const std::uint8_t level = place.on_lattice ? coarsest(place.index.i, place.index.j) : site.level;
-  if (level == 0) {
+  if (level == 0 || (!place.on_lattice && site.edge == k_none)) {
     return;
   }
   const std::int64_t half = step(level);
@@ -516,6 +586,7 @@ ChangedFacets Refinement::take_changes() {
   std::pmr::vector<NewInside> inside(parts_.memory);
   ChangedFacets changed(parts_.memory);
   for (std::uint32_t site = first_new_; site < parts_.sites.size(); ++site) {
+    find_parents(site);
     if (parts_.sites[site].edge != k_none) {
       on_edges.push_back({parts_.sites[site].edge, {site, parts_.places[site].index.i}});
     } else {
@@ -551,6 +622,11 @@ ChangedFacets Refinement::take_changes() {
     changed.first_inner.push_back(static_cast<std::uint32_t>(changed.inner.size()));
     const auto add = [&](std::uint32_t site) {
       const SitePlace& place = parts_.places[site];
+      if (!place.on_lattice) {
+        changed.inner.push_back(*std::lower_bound(irregular_.begin(), irregular_.end(), site,
+                                                  [](const InnerSite& a, std::uint32_t b) { return a.site < b; }));
+        return;
+      }
       const std::int64_t whole = std::int64_t{1} << lattice_finest_;
       const bool is_centre = parts_.sites[site].level == 0 && place.index.i % whole == 0 && place.index.j % whole == 0;
       changed.inner.push_back({ground(facet).lattice().point(lattice_finest_, place.index), site, is_centre, true});

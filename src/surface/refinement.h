@@ -33,7 +33,13 @@ class Refinement {
   /// Raises sites by one level each, in order, until one would lead beyond max_sites (0: no limit); appends new ones.
   void raise(std::span<const std::uint32_t> sites, std::uint32_t max_sites);
 
-  /// The facets whose sites raise() changed, and their sites; the borders get the new sites on their edges.
+  /// Inserts irregular sites, in order, until one would lead beyond max_sites: on facets that have a lattice, a quarter
+  /// of the smallest spacing clear of all other sites and borders. They are of the level of what is around them, and
+  /// obstacles to the lattice from now on: unlike what is raised, when they come does matter.
+  void insert(std::span<const WantedSite> wanted, std::uint32_t max_sites);
+
+  /// The facets whose sites raise() and insert() changed, and their sites; the borders get the new sites on their
+  /// edges.
   ChangedFacets take_changes();
 
  private:
@@ -49,7 +55,9 @@ class Refinement {
     bool operator==(const Mark&) const = default;
   };
 
-  bool raise_with_balance(std::uint32_t site, std::uint8_t level, std::size_t max_sites);
+  bool balance(std::size_t max_sites);
+  bool is_free(std::uint32_t facet, const Vec2& point);
+  std::uint8_t level_at(std::uint32_t facet, const Vec2& point) const;
   void roll_back(std::size_t site_count);
   void insert_around(std::uint32_t site, std::uint8_t level);
   void insert_on_lattice(std::uint32_t site, std::uint8_t level);
@@ -97,6 +105,7 @@ class Refinement {
   std::pmr::vector<std::uint32_t> ground_of_;           // per facet, or k_none
   std::pmr::deque<std::optional<FacetGround>> grounds_;
 
+  std::pmr::vector<InnerSite> irregular_;   // that insert() made, ascending
   std::pmr::vector<Raising> pending_;       // a stack
   std::pmr::vector<std::uint32_t> raised_;  // since the site at hand
   std::uint32_t first_new_;

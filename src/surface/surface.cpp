@@ -17,25 +17,6 @@ struct Surface::State : SurfaceParts {
   using SurfaceParts::SurfaceParts;
 
   std::optional<Refinement> refinement;  // what it needs to know is found out when it is first used
-
-  std::span<const ShareTriangle> triangles_of(std::uint32_t facet) const {
-    const FacetRecord& record = records[facet];
-    if (record.first_share == k_none) {
-      return {};
-    }
-    return record.mesh == k_none ? std::span<const ShareTriangle>(small_triangles).subspan(facet, 1)
-                                 : meshes[record.mesh]->triangles();
-  }
-
-  // NULL where each triangle's corners are shares of their own, with cells in closed form.
-  const FacetMesh* triangulated(std::uint32_t facet) const {
-    const FacetRecord& record = records[facet];
-    return record.mesh == k_none || meshes[record.mesh]->degenerate() ? nullptr : &*meshes[record.mesh];
-  }
-
-  LocatedFacet located(std::uint32_t facet) const {
-    return {facets.facets[facet].frame, triangles_of(facet), triangulated(facet), sites, samples, shares};
-  }
 };
 
 Surface::Surface(const Scene& scene, const WeldedScene& welded, const Facets& facets, const SurfaceOptions& options,
@@ -56,17 +37,24 @@ Surface::~Surface() {
   std::pmr::polymorphic_allocator<>(memory_).delete_object(state_);
 }
 
-std::pmr::vector<SampleOrigin> Surface::refine(std::span<const std::uint32_t> sites, std::uint32_t max_sites) {
+std::pmr::vector<SampleOrigin> Surface::refine(std::span<const std::uint32_t> sites, std::uint32_t max_sites,
+                                               std::span<const WantedSite> wanted) {
   const FloatingPointGuard guard(Denormals::keep);
   for (const std::uint32_t site : sites) {
     if (site >= state_->sites.size()) {
       throw Error(ErrorCode::invalid_argument, "there is no site %u", site);
     }
   }
+  for (const WantedSite& wish : wanted) {
+    if (wish.facet >= state_->records.size()) {
+      throw Error(ErrorCode::invalid_argument, "there is no facet %u", wish.facet);
+    }
+  }
   if (!state_->refinement) {
     state_->refinement.emplace(*state_);
   }
   state_->refinement->raise(sites, max_sites);
+  state_->refinement->insert(wanted, max_sites);
   return remake_surface(*state_, state_->refinement->take_changes());
 }
 

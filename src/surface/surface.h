@@ -71,6 +71,12 @@ struct SampleOrigin {
   bool kept;                     ///< the sample was there: it is samples[0], with weight 1
 };
 
+/// A point inside of a facet where a site is wanted: on a shadow's edge.
+struct WantedSite {
+  std::uint32_t facet;
+  Vec3 position;  ///< projected into the facet's plane
+};
+
 /// A facet's triangles. Corners name the front's share (its site, sample and albedo follow; the back's is other_side).
 using ShareTriangle = std::array<std::uint32_t, 3>;
 
@@ -116,7 +122,12 @@ class Surface {
   /// that follow, are left as they are. Takes time for the facets that change, and a pass over all samples.
   /// Returns an origin for each sample. Throws Error (invalid_argument) for a site that there is not; whatever else it
   /// throws leaves a surface that can only be destroyed.
-  std::pmr::vector<SampleOrigin> refine(std::span<const std::uint32_t> sites, std::uint32_t max_sites = 0);
+  /// wanted: sites to insert off the lattice then, on facets that are triangulated; one that is nearer than a quarter
+  /// of the smallest spacing to a border or to another site is left out. They keep their place, are of the level of
+  /// what is around them, and shoot for the patch that they lie in. The lattice keeps half its spacing from them from
+  /// then on.
+  std::pmr::vector<SampleOrigin> refine(std::span<const std::uint32_t> sites, std::uint32_t max_sites = 0,
+                                        std::span<const WantedSite> wanted = {});
 
   /// How often the surroundings of a site were refined: at least its own level, at most max_level(). Levels of sites
   /// that are joined by an edge differ by at most one.

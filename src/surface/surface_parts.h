@@ -9,6 +9,7 @@
 
 #include "surface/border_sites.h"
 #include "surface/facet_draft.h"
+#include "surface/facet_location.h"
 #include "surface/facet_mesh.h"
 #include "surface/surface.h"
 
@@ -77,6 +78,23 @@ struct SurfaceParts {
     return first_given.empty()
                ? std::span<const InnerSite>()
                : std::span(given).subspan(first_given[facet], first_given[facet + 1] - first_given[facet]);
+  }
+
+  std::span<const ShareTriangle> triangles_of(std::uint32_t facet) const {
+    const FacetRecord& record = records[facet];
+    if (record.first_share == k_none) {
+      return {};
+    }
+    return record.mesh == k_none ? std::span<const ShareTriangle>(small_triangles).subspan(facet, 1)
+                                 : meshes[record.mesh]->triangles();
+  }
+  /// NULL where each triangle's corners are shares of their own, with cells in closed form.
+  const FacetMesh* triangulated(std::uint32_t facet) const {
+    const FacetRecord& record = records[facet];
+    return record.mesh == k_none || meshes[record.mesh]->degenerate() ? nullptr : &*meshes[record.mesh];
+  }
+  LocatedFacet located(std::uint32_t facet) const {
+    return {facets.facets[facet].frame, triangles_of(facet), triangulated(facet), sites, samples, shares};
   }
 
   const Scene& scene;
