@@ -19,12 +19,10 @@ std::uint32_t Gather::add(std::uint32_t count) {
   return first;
 }
 
-void Gather::trace(std::uint32_t index, const Receiver& receiver, std::uint32_t ray_count, std::uint64_t seed,
-                   const Surface& surface, Tracer& tracer) {
-  Record& record = records_[index];
-  record.links.clear();
-  record.links.reserve(ray_count);
-  record.weight = 1.0 / ray_count;
+// Rays over a receiver's hemisphere; on_link(share) for each hit that shoots.
+template <class OnLink>
+Outlook Gather::look(const Receiver& receiver, std::uint32_t ray_count, std::uint64_t seed, const Surface& surface,
+                     Tracer& tracer, OnLink&& on_link) const {
   const auto shares = surface.shares();
   const Net net(seed);
   const Basis basis(receiver.normal);
@@ -52,9 +50,29 @@ void Gather::trace(std::uint32_t index, const Receiver& receiver, std::uint32_t 
     draw -= draw >= 1 ? 1 : 0;
     const std::size_t corner = draw < point.weights[0] ? 0 : draw < point.weights[0] + point.weights[1] ? 1 : 2;
     const std::uint32_t front = point.shares[corner];
-    record.links.push_back(hit.front ? front : shares[front].other_side);
+    on_link(hit.front ? front : shares[front].other_side);
   }
-  record.outlook = {open * record.weight, backs * record.weight, inverse_distance * record.weight};
+  const double weight = 1.0 / ray_count;
+  return {open * weight, backs * weight, inverse_distance * weight};
+}
+
+void Gather::trace(std::uint32_t index, const Receiver& receiver, std::uint32_t ray_count, std::uint64_t seed,
+                   const Surface& surface, Tracer& tracer) {
+  Record& record = records_[index];
+  record.links.clear();
+  record.links.reserve(ray_count);
+  record.weight = 1.0 / ray_count;
+  record.outlook =
+      look(receiver, ray_count, seed, surface, tracer, [&](std::uint32_t share) { record.links.push_back(share); });
+}
+
+Outlook Gather::glance(const Receiver& receiver, std::uint32_t ray_count, std::uint64_t seed, const Surface& surface,
+                       std::span<const glm::vec3> radiosity, Tracer& tracer, Color& gathered) const {
+  Color sum(0.0);
+  const Outlook outlook =
+      look(receiver, ray_count, seed, surface, tracer, [&](std::uint32_t share) { sum += Color(radiosity[share]); });
+  gathered = sum / static_cast<double>(ray_count);
+  return outlook;
 }
 
 void Gather::renumber(std::span<const std::uint32_t> now) {

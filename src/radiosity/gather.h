@@ -38,6 +38,10 @@ class Gather {
   void trace(std::uint32_t record, const Receiver& receiver, std::uint32_t ray_count, std::uint64_t seed,
              const Surface& surface, Tracer& tracer);
 
+  /// The same, of a receiver that is not kept: what it gathers of what shares shoot.
+  Outlook glance(const Receiver& receiver, std::uint32_t ray_count, std::uint64_t seed, const Surface& surface,
+                 std::span<const glm::vec3> radiosity, Tracer& tracer, Color& gathered) const;
+
   const Outlook& outlook(std::uint32_t record) const { return records_[record].outlook; }
 
   /// After the surface has numbered its shares anew: `now` is the new number of each old one.
@@ -47,6 +51,10 @@ class Gather {
   Color gather(std::uint32_t record, std::span<const glm::vec3> radiosity) const;
 
  private:
+  template <class OnLink>
+  Outlook look(const Receiver& receiver, std::uint32_t ray_count, std::uint64_t seed, const Surface& surface,
+               Tracer& tracer, OnLink&& on_link) const;
+
   struct Record {
     explicit Record(std::pmr::memory_resource* memory) : links(memory) {}
     Outlook outlook;

@@ -10,6 +10,8 @@ namespace {
 
 constexpr double k_step = 0.3;          // RMS of a step's linear interpolation, about 1 / sqrt(12)
 constexpr double k_bent = 0.2;          // of how far the edge's difference is from what its ends' gradients say
+constexpr double k_unknown = 0.1;       // of the difference, in facets too small to have gradients that say anything
+constexpr std::size_t k_small = 4;      // triangles
 constexpr double k_local_floor = 0.1;   // of the mean: what is darker counts as this
 constexpr std::uint32_t k_task = 4096;  // triangles
 
@@ -99,6 +101,9 @@ class FacetErrors {
           return glm::dot(gradients_[triangle[end] - first], along) / areas_[triangle[end] - first];
         };
         double error = k_bent * (std::abs(difference - foreseen(k)) + std::abs(difference - foreseen(next)));
+        if (triangles.size() <= k_small) {
+          error = std::max(error, k_unknown * std::abs(difference));
+        }
         if (light_.sights[c[k].sample] != light_.sights[c[next].sample]) {
           error = std::max(error, k_step * std::abs(difference));
         }

@@ -28,6 +28,7 @@ constexpr double k_stands_out = 0.02;
 constexpr double k_times_even_share = 16;
 constexpr double k_share_of_mesh = 0.5;  // of the tolerance: what the mesh may get wrong of direct light
 constexpr double k_probed = 0.1;         // of the squared tolerance: share of the area that a triangle is probed from
+constexpr double k_noise = 2;            // standard errors of a hemisphere of one ray; they fall by N^(-3/4)
 constexpr double k_local = 5;            // tolerances that a place may be off relative to its own light
 constexpr double k_reach = 3;            // times the root of the tolerance: how far light is taken, over what is near
 constexpr double k_same_way = 0.95;      // cosine between normals of which one may take the other's light
@@ -66,7 +67,6 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
       stood_out_(&host.memory),
       probes_(&host.memory),
       probed_(&host.memory),
-      probed_sights_(&host.memory),
       unprobed_(&host.memory) {
   const Clock::time_point begin = Clock::now();
   welded.emplace(weld(scene, options.weld_distance, host));
@@ -225,10 +225,10 @@ void Solver::refine() {
       return;
     }
   }
-  if (looking_) {
-    stage_ = Stage::account;
-  } else if (options.spacing.refines) {
+  if (options.spacing.refines) {
     stage_ = Stage::probes;
+  } else if (looking_) {
+    stage_ = Stage::account;
   } else {
     begin_looking();
   }
@@ -273,33 +273,34 @@ void Solver::begin_looking() {
   round_ = 0;
   pending_.resize(direct.size());
   std::iota(pending_.begin(), pending_.end(), 0u);
+  std::fill(unprobed_.begin(), unprobed_.end(), std::uint8_t{1});
   share_out_rays();
   stage_ = Stage::hemispheres;
 }
 
-// Direct light in the middle of triangles. A triangle that is wrong by the mean irradiance is worth its share of the
-// area against the squared tolerance: smaller ones than a tenth of that are not looked into.
+// The light that is being followed, in the middle of triangles. A triangle that is wrong by the mean irradiance is
+// worth its share of the area against the squared tolerance: smaller ones than a tenth of that are not looked into.
 void Solver::probe() {
   if (block_ == 0) {
-    double area = 0;
-    for (const Sample& sample : surface->samples()) {
-      area += sample.area;
-    }
-    const double least = std::max(k_probed * options.tolerance * options.tolerance * area, 1e-300);
-    probes_ = place_probes(*surface, least, unprobed_, visibility_->lift(), host);
-    probed_.assign(probes_.size(), Color(0.0));
-    probed_sights_.assign(probes_.size(), 0);
-    std::fill(unprobed_.begin(), unprobed_.end(), std::uint8_t{0});
+    place_probes_due();
   }
   const auto count = static_cast<std::uint32_t>((probes_.size() + ReceiverBlocks::k_size - 1) / ReceiverBlocks::k_size);
-  const std::uint32_t end = std::min(count, block_ + 16 * host.jobs.thread_count());
+  const std::uint32_t end = std::min(count, block_ + 4 * host.jobs.thread_count());
+  const Color sky = k_pi * light_->sky_radiance();
   over(block_, end, [&](std::uint32_t block, Tracer& tracer) {
     const std::size_t stop = std::min<std::size_t>(probes_.size(), std::size_t{block + 1} * ReceiverBlocks::k_size);
     for (std::size_t k = std::size_t{block} * ReceiverBlocks::k_size; k < stop; ++k) {
+      const Probe& probe = probes_[k];
+      if (looking_) {
+        const std::uint64_t seed = hash(options.seed, std::uint64_t{round_} + 1, k);
+        const Outlook outlook =
+            hemispheres_->glance(probe.receiver, probe_rays(), seed, *surface, radiosity_, tracer, probed_[k]);
+        probed_[k] += outlook.open * sky;
+        continue;
+      }
       for (std::uint32_t source = 0; source < light_->source_count(); ++source) {
         Sight sight;
-        probed_[k] += light_->irradiance(source, probes_[k].receiver, tracer, sight);
-        probed_sights_[k] = with_sight(probed_sights_[k], sight);
+        probed_[k] += light_->irradiance(source, probe.receiver, tracer, sight);
       }
     }
   });
@@ -308,16 +309,53 @@ void Solver::probe() {
     return;
   }
   block_ = 0;
-  if (round_ >= 3 * surface->max_level() || !raise(wrong_between())) {
+  if (round_ < 3 * surface->max_level() && raise(wrong_between())) {
+    return;
+  }
+  if (looking_) {
+    stage_ = Stage::account;
+  } else {
     begin_looking();
   }
 }
 
+std::uint32_t Solver::probe_rays() const {
+  return std::bit_ceil(
+      static_cast<std::uint32_t>(std::clamp(k_rays / 2 / options.tolerance, k_least_rays, k_most_rays)));
+}
+
+void Solver::place_probes_due() {
+  double area = 0;
+  for (const Sample& sample : surface->samples()) {
+    area += sample.area;
+  }
+  const double least = std::max(k_probed * options.tolerance * options.tolerance * area, 1e-300);
+  probes_ = place_probes(*surface, least, unprobed_, visibility_->lift(), host);
+  if (looking_) {
+    // Light from all around changes over the distance of what is seen: where that is far, nothing is between.
+    const double most = 0.5 * k_reach * std::sqrt(options.tolerance);
+    std::erase_if(probes_, [&](const Probe& probe) {
+      return std::none_of(probe.samples.begin(), probe.samples.end(), [&](std::uint32_t sample) {
+        return outlooks_[sample].inverse_distance * glm::distance(receivers_[sample].point, probe.receiver.point) >
+               most;
+      });
+    });
+  }
+  probed_.assign(probes_.size(), Color(0.0));
+  std::fill(unprobed_.begin(), unprobed_.end(), std::uint8_t{0});
+}
+
 // Sites about the triangles whose probes say otherwise than their corners, worst first, until the rest is within the
-// tolerance.
+// tolerance. What noise explains says nothing.
 std::pmr::vector<std::uint32_t> Solver::wrong_between() const {
   const auto samples = surface->samples();
-  const double mean = mean_of(direct);
+  std::pmr::vector<Color> light(direct, &host.memory);
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    light[i] += first_bounce_[i];
+  }
+  const double mean = mean_of(light);
+  const Color sky = k_pi * light_->sky_radiance();
+  const double noise = looking_ ? k_noise * std::pow(probe_rays(), -0.75) : 0;
   struct Wrong {
     double score;
     std::uint32_t probe;
@@ -331,9 +369,11 @@ std::pmr::vector<std::uint32_t> Solver::wrong_between() const {
     const Probe& probe = probes_[k];
     double expected = 0;
     for (const std::uint32_t sample : probe.samples) {
-      expected += sum(direct[sample]) / 9;
+      expected += sum(looking_ ? outlooks_[sample].open * sky + first_bounce_[sample] : direct[sample]) / 9;
     }
-    const double relative = std::abs(sum(probed_[k]) / 3 - expected) / (k_share_of_mesh * options.tolerance * mean);
+    const double found = sum(probed_[k]) / 3;
+    const double error = std::max(0.0, std::abs(found - expected) - noise * std::max(found, expected));
+    const double relative = error / (k_share_of_mesh * options.tolerance * mean);
     const double score = relative * relative * probe.area;
     left += score;
     wrong.push_back({score, k});

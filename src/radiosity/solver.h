@@ -54,6 +54,8 @@ class Solver {
   void shine();
   void refine();
   void probe();
+  std::uint32_t probe_rays() const;
+  void place_probes_due();
   std::pmr::vector<std::uint32_t> wrong_between() const;
   bool raise(std::span<const std::uint32_t> sites);
   void begin_looking();
@@ -113,8 +115,7 @@ class Solver {
   std::uint32_t source_ = 0;  // of the direct stage
   std::uint32_t round_ = 0;   // of refinement
   std::pmr::vector<Probe> probes_;
-  std::pmr::vector<Color> probed_;  // irradiance at each probe
-  std::pmr::vector<std::uint64_t> probed_sights_;
+  std::pmr::vector<Color> probed_;           // irradiance at each probe
   std::pmr::vector<std::uint8_t> unprobed_;  // of each sample: no probe was near it
   double rays_per_length_ = 0;
   bool looking_ = false;     // around: direct light alone has its mesh
