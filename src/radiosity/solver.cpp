@@ -32,7 +32,7 @@ constexpr double k_noise = 2;            // standard errors of a hemisphere of o
 constexpr double k_local = 5;            // tolerances that a place may be off relative to its own light
 constexpr double k_reach = 3;            // times the root of the tolerance: how far light is taken, over what is near
 constexpr double k_same_way = 0.95;      // cosine between normals of which one may take the other's light
-constexpr double k_share_left_unshot = 0.1;  // of the tolerance: may be missing when the bake has converged
+constexpr double k_share_left_unshot = 0.01;  // of the tolerance: may be missing when the bake has converged
 
 double sum(const Color& color) {
   return color.r + color.g + color.b;
@@ -40,7 +40,7 @@ double sum(const Color& color) {
 
 constexpr SampleOrigin k_unanchored = {{k_none, k_none, k_none}, {0, 0, 0}, false};
 
-constexpr double k_rays = 8;  // over the tolerance, where all samples have the same area
+constexpr double k_rays = 4;  // over the tolerance, where all samples have the same area
 constexpr double k_least_rays = 48, k_most_rays = 8192;
 
 }  // namespace
@@ -112,7 +112,7 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
   pending_.resize(samples.size());
   std::iota(pending_.begin(), pending_.end(), 0u);
   blocks_.emplace(*surface, receivers_, pending_, host);
-  hemispheres_.emplace(scene, *facets, occluders_, host);
+  hemispheres_.emplace(scene, *facets, occluders_, sum(light_->sky_radiance()) > 0, host);
   stats_.seconds_setup = std::chrono::duration<double>(Clock::now() - begin).count();
   seconds = stats_.seconds_setup;
 }
