@@ -76,14 +76,7 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
     find_contacts(scene, *welded, *facets, ContactLimits::at_spacing(finest_spacing(spacing)), host);
   }
   surface.emplace(scene, *welded, *facets, spacing, host);
-  for (auto wide = sites_wider_than_gaps(*surface, spacing, &host.memory); !wide.empty();) {
-    const std::size_t before = surface->sites().size();
-    surface->refine(wide, options.spacing.max_sites);
-    wide = sites_wider_than_gaps(*surface, spacing, &host.memory);
-    if (surface->sites().size() == before) {
-      break;  // there are as many as there may be
-    }
-  }
+  resolve_gaps(*surface, spacing, options.spacing.max_sites, &host.memory);
 
   std::pmr::vector<std::uint32_t> corners(&host.memory);
   for (std::uint32_t t = 0; t < welded->triangles.size(); ++t) {

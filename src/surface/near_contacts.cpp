@@ -28,4 +28,19 @@ std::pmr::vector<std::uint32_t> sites_wider_than_gaps(const Surface& surface, co
   return wide;
 }
 
+void resolve_gaps(Surface& surface, const SurfaceOptions& options, std::uint32_t max_sites,
+                  std::pmr::memory_resource* memory) {
+  const std::size_t first = surface.sites().size();
+  std::size_t most = first + first / 4 + 4096;
+  most = max_sites > 0 ? std::min<std::size_t>(most, max_sites) : most;
+  for (auto wide = sites_wider_than_gaps(surface, options, memory); !wide.empty() && surface.sites().size() < most;
+       wide = sites_wider_than_gaps(surface, options, memory)) {
+    const std::size_t before = surface.sites().size();
+    surface.refine(wide, static_cast<std::uint32_t>(most));
+    if (surface.sites().size() == before) {
+      break;  // the next one would lead beyond
+    }
+  }
+}
+
 }  // namespace radvor
