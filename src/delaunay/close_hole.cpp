@@ -36,14 +36,23 @@ bool Triangulation::close_hole(VertexId v) {
 
   // The part of the polygon from corner i to j, beyond the edge from j to i.
   struct Part {
-    std::uint8_t i, j, apex;
+    std::uint8_t i, j, beyond;  // beyond: the corner of the triangle at the edge's other side
+    std::uint8_t apex;
   };
   std::array<Part, k_most> parts;  // one a triangle; those before it are decided
   std::uint32_t decided = 0, known = 0;
-  parts[known++] = {0, static_cast<std::uint8_t>(degree - 1), 0};
+  parts[known++] = {0, static_cast<std::uint8_t>(degree - 1), k_most, 0};
   while (decided < known) {
     Part& part = parts[decided++];
     const std::uint32_t i = part.i, j = part.j;
+    // A constraint not far away may hide neighbours from each other, so that more than a circle decides.
+    const auto is_delaunay = [&](std::uint32_t apex) {
+      if (orientation(at[j], at[i], at[apex], lattice_) <= 0) {
+        return false;
+      }
+      const int side = part.beyond == k_most ? -1 : in_circle(at[j], at[i], at[apex], at[part.beyond], lattice_);
+      return side < 0 || (side == 0 && !wins_tie(at[j], at[i], at[apex], at[part.beyond]));
+    };
     std::uint32_t best = i + 1;
     if (j > i + 2) {
       best = j;
@@ -64,12 +73,15 @@ bool Triangulation::close_hole(VertexId v) {
         return false;
       }
     }
+    if (constrained_ && !is_delaunay(best)) {
+      return false;
+    }
     part.apex = static_cast<std::uint8_t>(best);
     if (best > i + 1) {
-      parts[known++] = {static_cast<std::uint8_t>(i), part.apex, 0};
+      parts[known++] = {part.i, part.apex, part.j, 0};
     }
     if (j > best + 1) {
-      parts[known++] = {part.apex, static_cast<std::uint8_t>(j), 0};
+      parts[known++] = {part.apex, part.j, part.i, 0};
     }
   }
 
@@ -80,7 +92,7 @@ bool Triangulation::close_hole(VertexId v) {
   parents[0] = outer[degree - 1];
   std::uint32_t child = 1;
   for (std::uint32_t k = 0; k < known; ++k) {
-    const auto [i, j, apex] = parts[k];
+    const std::uint32_t i = parts[k].i, j = parts[k].j, apex = parts[k].apex;
     const TriangleId t = triangles[k];
     mesh_.set_triangle(t, ring[i], ring[apex], ring[j], state);
     mesh_.link(half_edge(t, 2), parents[k]);
