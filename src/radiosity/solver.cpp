@@ -11,6 +11,7 @@
 #include "radiosity/links.h"
 #include "radiosity/refinement_plan.h"
 #include "radiosity/shooting_tree.h"
+#include "radiosity/smoothing.h"
 #include "scene/find_contacts.h"
 #include "surface/near_contacts.h"
 
@@ -772,9 +773,38 @@ void Solver::bounce() {
   }
 }
 
-// Where the triangulation is free its edges follow the light.
+// What hemispheres say of sky and surfaces is freed of noise. What was interpolated follows its anchors.
+void Solver::settle_noise() {
+  std::pmr::vector<Certainty> certain(direct.size(), Certainty{}, &host.memory);
+  std::pmr::vector<Color> sky_light(direct.size(), Color(0.0), &host.memory);
+  std::pmr::vector<Color> punctual(direct.size(), Color(0.0), &host.memory);
+  const Color sky = k_pi * light_->sky_radiance();
+  const double reach = k_reach * std::sqrt(options.tolerance);
+  for (std::size_t i = 0; i < direct.size(); ++i) {
+    const Outlook& outlook = outlooks_[i];
+    sky_light[i] = outlook.open * sky;
+    punctual[i] = direct[i] - sky_light[i];
+    certain[i].reach = reach / std::max(outlook.inverse_distance, 1e-300);
+    certain[i].noise = records_[i] == k_none ? 0 : std::pow(outlook.weight, 0.75);
+  }
+  smooth(*surface, certain, indirect, host);
+  for (std::size_t i = 0; i < direct.size(); ++i) {  // a sky that is open, or hidden, is so for certain
+    certain[i].noise *= outlooks_[i].open > 0 && outlooks_[i].open < 1 ? 1 : 0;
+  }
+  smooth(*surface, certain, sky_light, host);
+  interpolate(interpolated_, indirect);
+  interpolate(interpolated_, sky_light);
+  for (std::size_t i = 0; i < direct.size(); ++i) {
+    if (sky_light[i] != outlooks_[i].open * sky) {  // else to the bit as it was
+      direct[i] = glm::max(punctual[i], Color(0.0)) + sky_light[i];
+    }
+  }
+}
+
+// Noise is settled, and where the triangulation is free its edges follow the light.
 void Solver::finish() {
   stage_ = Stage::done;
+  settle_noise();
   if ((options.disable & Disable::tie_alignment) != 0) {
     return;
   }

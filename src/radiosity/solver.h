@@ -74,6 +74,7 @@ class Solver {
   void lose(std::uint32_t share, const Color& radiosity);
   bool begin_bounce();
   void bounce();
+  void settle_noise();
   void finish();
 
   template <class Work>
