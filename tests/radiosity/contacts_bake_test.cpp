@@ -104,35 +104,44 @@ TEST(ContactLight, ADarkClosedBoxOnALitFloorStaysDark) {
   EXPECT_GT(dark, 100u);
 }
 
-// A long room, a light in its left part, a partition that just fits or that goes through floor, walls and ceiling.
+// A long room, a light in its left part, a partition that just fits or that goes through floor, walls and ceiling: the
+// right part is dark, however often light is reflected in the left one.
 TEST(ContactLight, TwoRoomsShareAWallWithoutThickness) {
   for (const double beyond : {0.0, 0.25}) {
-    SceneBuilder builder;
-    const std::uint32_t grey = builder.material(Color(0.8), Color(0.0), true);
-    builder.box({0, 0, 0}, {5, 2, 2}, true, grey);
-    builder.quad({2.1, -beyond, -beyond}, {2.1, 2 + beyond, -beyond}, {2.1, 2 + beyond, 2 + beyond},
-                 {2.1, -beyond, 2 + beyond}, grey);
-    Scene scene = builder.take();
-    scene.lights.push_back(bulb({1, 1, 1.5}));
-    TestBake bake(std::move(scene), direct_alone(0.5));
-    ASSERT_EQ(bake.run(), BakeStatus::converged);
-    std::size_t dark = 0;
-    std::size_t lit = 0;
-    const Surface& surface = bake->surface();
-    for (std::size_t i = 0; i < surface.samples().size(); ++i) {
-      const Sample& sample = surface.samples()[i];
-      const Vec3 p = sample.point + 1e-4 * sample.facet_normal;
-      const bool in_house = p.y > 0 && p.y < 2 && p.z > 0 && p.z < 2 && p.x > 0 && p.x < 5;
-      if (in_house && p.x > 2.1f) {
-        EXPECT_EQ(bake->direct()[i], Color(0.0)) << p.x << " " << p.y << " " << p.z;
-        ++dark;
-      } else if (in_house) {
-        EXPECT_GT(bake->direct()[i].g, 0.05) << p.x << " " << p.y << " " << p.z;
-        ++lit;
+    for (const bool lamp_alone : {false, true}) {
+      SceneBuilder builder;
+      const std::uint32_t grey = builder.material(Color(0.8), Color(0.0), true);
+      const std::uint32_t lamp = builder.material(Color(0.0), Color(5.0));
+      builder.box({0, 0, 0}, {5, 2, 2}, true, grey);
+      builder.quad({2.1, -beyond, -beyond}, {2.1, 2 + beyond, -beyond}, {2.1, 2 + beyond, 2 + beyond},
+                   {2.1, -beyond, 2 + beyond}, grey);
+      if (lamp_alone) {
+        builder.quad({0.5, 1.5, 1.9}, {1.5, 1.5, 1.9}, {1.5, 0.5, 1.9}, {0.5, 0.5, 1.9}, lamp);
       }
+      Scene scene = builder.take();
+      if (!lamp_alone) {
+        scene.lights.push_back(bulb({1, 1, 1.5}));
+      }
+      TestBake bake(std::move(scene), spaced(0.5));
+      ASSERT_EQ(bake.run(), BakeStatus::converged);
+      std::size_t dark = 0;
+      std::size_t lit = 0;
+      const Surface& surface = bake->surface();
+      for (std::size_t i = 0; i < surface.samples().size(); ++i) {
+        const Sample& sample = surface.samples()[i];
+        const Vec3 p = sample.point + 1e-4 * sample.facet_normal;
+        const bool in_house = p.y > 0 && p.y < 2 && p.z > 0 && p.z < 2 && p.x > 0 && p.x < 5;
+        if (in_house && p.x > 2.1f) {
+          EXPECT_EQ(bake.irradiance(i), Color(0.0)) << p.x << " " << p.y << " " << p.z;
+          ++dark;
+        } else if (in_house && p.z < 1.9f) {
+          EXPECT_GT(bake.irradiance(i).g, 0.05) << p.x << " " << p.y << " " << p.z;
+          ++lit;
+        }
+      }
+      EXPECT_GT(dark, 300u);
+      EXPECT_GT(lit, 200u);
     }
-    EXPECT_GT(dark, 300u);
-    EXPECT_GT(lit, 200u);
   }
 }
 
