@@ -77,10 +77,13 @@ class Solver {
   void settle_noise();
   void finish();
 
+  // Runs work(sample, tracer) for a range of blocks of receivers.
   template <class Work>
   void over_blocks(std::uint32_t begin, std::uint32_t end, Work&& work);
+  // Runs work(index, tracer) in parallel and sums up what was done.
   template <class Work>
   void over(std::uint32_t begin, std::uint32_t end, Work&& work);
+  void count(const TransportCounters& counters);
   double mean_of(std::span<const Color> irradiance) const;
   std::uint32_t next_blocks(std::uint32_t per_thread) const;
   double unshot_luminance() const;
@@ -126,5 +129,27 @@ class Solver {
   double previous_unshot_ = 0, first_unshot_ = 0;
   BakeStats stats_;
 };
+
+template <class Work>
+void Solver::over_blocks(std::uint32_t begin, std::uint32_t end, Work&& work) {
+  over(begin, end, [&](std::uint32_t block, Tracer& tracer) {
+    for (const std::uint32_t sample : blocks_->block(block)) {
+      work(sample, tracer);
+    }
+  });
+}
+
+template <class Work>
+void Solver::over(std::uint32_t begin, std::uint32_t end, Work&& work) {
+  std::pmr::vector<TransportCounters> counters(end - begin, &host.memory);
+  host.jobs.for_each(end - begin, [&](std::uint32_t index) {
+    Tracer tracer(*visibility_);
+    work(begin + index, tracer);
+    counters[index] = tracer.counters;
+  });
+  for (const TransportCounters& counter : counters) {
+    count(counter);
+  }
+}
 
 }  // namespace radvor

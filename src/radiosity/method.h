@@ -1,0 +1,33 @@
+// What the steps of a bake share: constants of the method, and sums.
+#pragma once
+
+#include "base/vector.h"
+#include "scene/welded.h"
+#include "surface/surface.h"
+
+namespace radvor {
+
+inline constexpr double k_pi = 3.14159265358979323846;
+
+/// Rays of one hemisphere, over the tolerance, where all samples have the same area.
+inline constexpr double k_rays = 4;
+inline constexpr double k_least_rays = 48, k_most_rays = 8192;
+
+/// Light from all around is taken over so far, times the root of the tolerance, relative to the distance of what is
+/// seen (Ward's a, but linear interpolation errs by its square).
+inline constexpr double k_reach = 3;
+
+/// Of the tolerance: what the mesh may get wrong.
+inline constexpr double k_share_of_mesh = 0.5;
+
+/// Of the tolerance: what may be missing when the bake has converged.
+inline constexpr double k_share_left_unshot = 0.01;
+
+/// The samples that a sample lies between are not known, or are no more.
+inline constexpr SampleOrigin k_unanchored = {{k_none, k_none, k_none}, {0, 0, 0}, false};
+
+inline double sum(const Color& color) {
+  return color.r + color.g + color.b;
+}
+
+}  // namespace radvor

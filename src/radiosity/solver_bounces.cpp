@@ -1,0 +1,172 @@
+// Reflections: what stands out first, by itself; then everything together, bounce by bounce.
+#include <algorithm>
+#include <cmath>
+
+#include "radiosity/fate.h"
+#include "radiosity/links.h"
+#include "radiosity/method.h"
+#include "radiosity/shooting_tree.h"
+#include "radiosity/solver.h"
+
+namespace radvor {
+
+namespace {
+
+// A patch shoots by itself, once, while it has this share of all unshot power, and so many times its even share. In a
+// room of few patches none stands out, and links make every later bounce cheaper than one such shot.
+constexpr double k_stands_out = 0.02;
+constexpr double k_times_even_share = 16;
+
+}  // namespace
+
+// What the sources emitted and lost; what surfaces have to reflect.
+void Solver::account() {
+  const FateMeter meter(scene, *welded, *visibility_, occluders_, options.seed);
+  const FateMeter::Powers powers = meter.of_sources(*light_, host);
+  stats_.emitted_power = powers.emitted;
+  stats_.escaped_power = powers.escaped;
+  stats_.absorbed_back_power = powers.backs;
+  stats_.rays += powers.rays;
+  const auto shares = surface->shares();
+  unshot_.reserve(shares.size());
+  for (const Share& share : shares) {
+    unshot_.push_back(direct[share.sample]);
+  }
+  incoming_.assign(receivers_.size(), Color(0.0));
+  pending_.clear();
+  for (std::uint32_t i = 0; i < records_.size(); ++i) {
+    if (records_[i] != k_none) {
+      pending_.push_back(i);
+    }
+  }
+  blocks_.emplace(*surface, receivers_, pending_, host);
+  radiosity_.assign(shares.size(), glm::vec3(0.0f));
+  first_unshot_ = previous_unshot_ = unshot_luminance();
+  if ((options.disable & Disable::indirect) != 0 || first_unshot_ <= 0) {
+    stage_ = Stage::finish;
+    return;
+  }
+  stood_out_.assign(surface->patch_count(), 0);
+  stage_ = options.max_bounces == 0 ? Stage::standouts : Stage::bounces;
+}
+
+double Solver::unshot_luminance() const {
+  double power = 0;
+  const auto shares = surface->shares();
+  for (std::size_t s = 0; s < shares.size(); ++s) {
+    power += shares[s].area * luminance(shares[s].albedo * unshot_[s]);
+  }
+  return power;
+}
+
+// Shoots the patch of largest unshot power at all receivers, while one stands out: few rays would meet it.
+void Solver::shoot_standout() {
+  const auto shares = surface->shares();
+  double total = 0, largest = 0;
+  std::uint32_t patch = k_none;
+  for (std::uint32_t p = 0; p < surface->patch_count(); ++p) {
+    double power = 0;
+    for (const std::uint32_t s : surface->patch(p)) {
+      power += shares[s].area * luminance(shares[s].albedo * unshot_[s]);
+    }
+    total += power;
+    if (power > largest && stood_out_[p] == 0) {
+      largest = power;
+      patch = p;
+    }
+  }
+  const double even_share = 1.0 / std::max(1u, surface->patch_count());
+  if (patch == k_none || largest < std::max(k_stands_out, k_times_even_share * even_share) * total) {
+    stage_ = Stage::bounces;
+    return;
+  }
+  stood_out_[patch] = 1;
+  const ShootingTree tree(*surface, std::span(&patch, 1), host);
+  std::pmr::vector<NodeLight> light(tree.nodes().size(), NodeLight{}, &host.memory);
+  for (const Element& element : tree.elements()) {
+    light[element.node].radiosity = shares[element.share].albedo * unshot_[element.share];
+    lose(element.share, light[element.node].radiosity);
+    unshot_[element.share] = Color(0.0);
+  }
+  tree.pull(light, host);
+
+  LinkAccuracy accuracy;
+  accuracy.least_rays = 8;
+  over_blocks(0, blocks_->count(), [&](std::uint32_t sample, Tracer& tracer) {
+    LinkMaker maker(tree, occluder_tree_ ? &*occluder_tree_ : nullptr, accuracy, &host.memory);
+    std::pmr::vector<Link> links(&host.memory);
+    maker.make(receivers_[sample], tree.roots(), {}, tracer, links);
+    incoming_[sample] = Color(0.0);
+    for (const Link& link : links) {
+      incoming_[sample] += sent_along(link, light);
+    }
+  });
+  interpolate(interpolated_, incoming_);
+  for (std::size_t i = 0; i < incoming_.size(); ++i) {
+    indirect[i] += incoming_[i];
+  }
+  for (std::size_t s = 0; s < shares.size(); ++s) {
+    unshot_[s] += incoming_[shares[s].sample];
+  }
+  ++stats_.shots;
+}
+
+// What does not come back of a share's shot.
+void Solver::lose(std::uint32_t share, const Color& radiosity) {
+  const Share& shot = surface->shares()[share];
+  const Outlook& outlook = outlooks_[shot.sample];
+  stats_.escaped_power += shot.area * sum(radiosity) * outlook.open;
+  stats_.absorbed_back_power += shot.area * sum(radiosity) * outlook.backs;
+}
+
+// Decides whether another bounce is due; takes what is unshot as what is shot.
+bool Solver::begin_bounce() {
+  const double left = unshot_luminance();
+  const auto samples = surface->samples();
+  double received = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    received += samples[i].area * luminance(direct[i] + indirect[i]);
+  }
+  // What is left goes on as a geometric series; its ratio is that of the last two bounces.
+  const double ratio = bounces_ > 0 && previous_unshot_ > 0 ? std::min(0.99, left / previous_unshot_) : 0.5;
+  previous_unshot_ = left;
+  if (left <= 0 || left / (1 - ratio) <= k_share_left_unshot * options.tolerance * received ||
+      (options.max_bounces != 0 && bounces_ >= options.max_bounces)) {
+    return false;
+  }
+  const auto shares = surface->shares();
+  for (std::uint32_t s = 0; s < shares.size(); ++s) {
+    const Color sent = shares[s].albedo * unshot_[s];
+    radiosity_[s] = glm::vec3(sent);
+    lose(s, sent);
+  }
+  return true;
+}
+
+// All shares together, on some blocks of receivers.
+void Solver::bounce() {
+  if (block_ == 0 && !begin_bounce()) {
+    stage_ = Stage::finish;
+    return;
+  }
+  const std::uint32_t end = next_blocks(256);
+  over_blocks(block_, end, [&](std::uint32_t sample, Tracer&) {
+    incoming_[sample] = hemispheres_->gather(records_[sample], radiosity_);
+  });
+  block_ = end;
+  if (block_ >= blocks_->count()) {
+    block_ = 0;
+    ++bounces_;
+    interpolate(interpolated_, incoming_);
+    for (std::size_t i = 0; i < incoming_.size(); ++i) {
+      indirect[i] += incoming_[i];
+    }
+    const auto shares = surface->shares();
+    for (std::size_t s = 0; s < shares.size(); ++s) {
+      unshot_[s] = incoming_[shares[s].sample];
+    }
+    stats_.shots += surface->patch_count();
+  }
+}
+
+}  // namespace radvor

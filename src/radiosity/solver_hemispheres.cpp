@@ -1,0 +1,174 @@
+// Light from all around: which samples look at it, with how many rays, and what the others make of that.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include "base/hash.h"
+#include "radiosity/method.h"
+#include "radiosity/smoothing.h"
+#include "radiosity/solver.h"
+
+namespace radvor {
+
+namespace {
+
+constexpr double k_same_way = 0.95;  // cosine between normals of which one may take the other's light
+
+}  // namespace
+
+void Solver::begin_looking() {
+  looking_ = true;
+  round_ = 0;
+  pending_.resize(direct.size());
+  std::iota(pending_.begin(), pending_.end(), 0u);
+  std::fill(unprobed_.begin(), unprobed_.end(), std::uint8_t{1});
+  share_out_rays();
+  stage_ = Stage::hemispheres;
+}
+
+// Which pending samples of a level look around by themselves; the others take from their anchors. After Ward et al., A
+// ray tracing solution for diffuse interreflection (1988): light from all around changes over the distance of what is
+// seen.
+void Solver::begin_level() {
+  const auto samples = surface->samples();
+  const auto sites = surface->sites();
+  const bool lazy = (options.disable & Disable::lazy) == 0;
+  const double most = k_reach * std::sqrt(options.tolerance);
+  std::pmr::vector<std::uint32_t> looking(&host.memory);
+  for (const std::uint32_t i : pending_) {
+    if (sites[samples[i].site].level != level_) {
+      continue;
+    }
+    const SampleOrigin& anchor = anchors_[i];
+    bool looks = !lazy || anchor.samples[0] == k_none;
+    for (std::size_t k = 0; !looks && k < 3; ++k) {
+      const std::uint32_t other = anchor.samples[k];
+      if (anchor.weights[k] > 0) {
+        const double nearness = outlooks_[other].inverse_distance;
+        looks = glm::distance(receivers_[i].point, receivers_[other].point) * nearness > most ||
+                glm::dot(samples[i].normal, samples[other].normal) < k_same_way;
+      }
+    }
+    if (looks) {
+      looking.push_back(i);
+      continue;
+    }
+    Outlook& own = outlooks_[i];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Outlook& other = outlooks_[anchor.samples[k]];
+      const double weight = anchor.weights[k];
+      own.open += weight * other.open;
+      own.backs += weight * other.backs;
+      own.inverse_distance += weight * other.inverse_distance;
+    }
+    interpolated_.push_back(i);
+    ++stats_.skipped_lazy;
+  }
+  std::uint32_t record = hemispheres_->add(static_cast<std::uint32_t>(looking.size()));
+  for (const std::uint32_t sample : looking) {
+    records_[sample] = record++;
+  }
+  blocks_.emplace(*surface, receivers_, looking, host);
+}
+
+// How many rays a sample's hemisphere is worth: of all ways to spend them, in proportion to the root of the area leaves
+// the least area-weighted squared error. As much of it is left as by k_rays / tolerance for each sample.
+void Solver::share_out_rays() {
+  double roots = 0, area = 0;
+  for (const Sample& sample : surface->samples()) {
+    roots += std::sqrt(sample.area);
+    area += sample.area;
+  }
+  rays_per_length_ = area > 0 ? k_rays / options.tolerance * roots / area : 0;
+}
+
+// A power of two, so that they are a net.
+std::uint32_t Solver::rays_for(double area) const {
+  const double wanted = std::clamp(rays_per_length_ * std::sqrt(area), k_least_rays, k_most_rays);
+  return std::bit_ceil(static_cast<std::uint32_t>(wanted));
+}
+
+// What some blocks of pending receivers see of their hemispheres.
+void Solver::look_around() {
+  if ((options.disable & Disable::indirect) != 0 && sum(light_->sky_radiance()) <= 0) {
+    stage_ = Stage::account;
+    return;
+  }
+  if (block_ == 0) {
+    begin_level();
+  }
+  const std::uint32_t end = next_blocks(4);
+  over_blocks(block_, end, [&](std::uint32_t sample, Tracer& tracer) {
+    const std::uint32_t record = records_[sample];
+    hemispheres_->trace(record, receivers_[sample], rays_for(surface->samples()[sample].area),
+                        hash(options.seed, record), *surface, tracer);
+    outlooks_[sample] = hemispheres_->outlook(record);
+  });
+  block_ = end;
+  if (block_ < blocks_->count()) {
+    return;
+  }
+  block_ = 0;
+  if (++level_ <= surface->max_level()) {
+    return;
+  }
+  level_ = 0;
+  const Color sky = k_pi * light_->sky_radiance();
+  for (const std::uint32_t i : pending_) {
+    direct[i] += outlooks_[i].open * sky;
+  }
+  if ((options.disable & Disable::indirect) == 0) {
+    see_first_bounce();
+  }
+  stage_ = Stage::refinement;
+}
+
+// What pending samples get by one reflection of direct light.
+void Solver::see_first_bounce() {
+  const auto shares = surface->shares();
+  radiosity_.resize(shares.size());
+  for (std::size_t s = 0; s < shares.size(); ++s) {
+    radiosity_[s] = glm::vec3(shares[s].albedo * direct[shares[s].sample]);
+  }
+  constexpr std::uint32_t k_block = 256;
+  const auto count = static_cast<std::uint32_t>(pending_.size());
+  host.jobs.for_each((count + k_block - 1) / k_block, [&](std::uint32_t block) {
+    for (std::uint32_t k = block * k_block; k < std::min(count, (block + 1) * k_block); ++k) {
+      if (records_[pending_[k]] != k_none) {
+        first_bounce_[pending_[k]] = hemispheres_->gather(records_[pending_[k]], radiosity_);
+      }
+    }
+  });
+  interpolate(interpolated_, first_bounce_);
+}
+
+// What hemispheres say of sky and surfaces is freed of noise. What was interpolated follows its anchors.
+void Solver::settle_noise() {
+  std::pmr::vector<Certainty> certain(direct.size(), Certainty{}, &host.memory);
+  std::pmr::vector<Color> sky_light(direct.size(), Color(0.0), &host.memory);
+  std::pmr::vector<Color> punctual(direct.size(), Color(0.0), &host.memory);
+  const Color sky = k_pi * light_->sky_radiance();
+  const double reach = k_reach * std::sqrt(options.tolerance);
+  for (std::size_t i = 0; i < direct.size(); ++i) {
+    const Outlook& outlook = outlooks_[i];
+    sky_light[i] = outlook.open * sky;
+    punctual[i] = direct[i] - sky_light[i];
+    certain[i].reach = reach / std::max(outlook.inverse_distance, 1e-300);
+    certain[i].noise = records_[i] == k_none ? 0 : std::pow(outlook.weight, 0.75);
+  }
+  smooth(*surface, certain, indirect, host);
+  for (std::size_t i = 0; i < direct.size(); ++i) {  // a sky that is open, or hidden, is so for certain
+    certain[i].noise *= outlooks_[i].open > 0 && outlooks_[i].open < 1 ? 1 : 0;
+  }
+  smooth(*surface, certain, sky_light, host);
+  interpolate(interpolated_, indirect);
+  interpolate(interpolated_, sky_light);
+  for (std::size_t i = 0; i < direct.size(); ++i) {
+    if (sky_light[i] != outlooks_[i].open * sky) {  // else to the bit as it was
+      direct[i] = glm::max(punctual[i], Color(0.0)) + sky_light[i];
+    }
+  }
+}
+
+}  // namespace radvor

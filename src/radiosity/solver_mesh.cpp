@@ -1,0 +1,162 @@
+// The mesh follows the light: sites are raised where it is too coarse, and what is known of samples goes along.
+#include <algorithm>
+
+#include "radiosity/method.h"
+#include "radiosity/refinement_plan.h"
+#include "radiosity/solver.h"
+
+namespace radvor {
+
+namespace {
+
+constexpr double k_local = 5;  // tolerances that a place may be off relative to its own light
+
+template <class Value>
+void renumber(std::pmr::vector<Value>& values, std::span<const SampleOrigin> origins, const Value& unknown) {
+  std::pmr::vector<Value> now(origins.size(), unknown, values.get_allocator());
+  for (std::size_t i = 0; i < origins.size(); ++i) {
+    if (origins[i].kept) {
+      now[i] = values[origins[i].samples[0]];
+    }
+  }
+  values.swap(now);
+}
+
+}  // namespace
+
+// Raises the mesh's level where the light so far demands it; the new samples' light is next. Where it demands nothing
+// more, the next kind of light is due.
+void Solver::refine() {
+  std::pmr::vector<Color> light(direct, &host.memory);
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    light[i] += first_bounce_[i];
+  }
+  if (options.spacing.refines && round_ < 2 * surface->max_level()) {
+    const double mean = mean_of(light);
+    const RefinementGoal goal{k_share_of_mesh * options.tolerance, k_local * options.tolerance, mean,
+                              surface->sites().size()};
+    if (mean > 0 && raise(plan_refinement(*surface, {light, sights_}, goal, host))) {
+      return;
+    }
+  }
+  if (options.spacing.refines) {
+    stage_ = Stage::probes;
+  } else if (looking_) {
+    stage_ = Stage::account;
+  } else {
+    begin_looking();
+  }
+}
+
+// Whether there are new samples, whose direct light is then next.
+bool Solver::raise(std::span<const std::uint32_t> raised) {
+  const std::uint32_t most = options.spacing.max_sites;
+  if (raised.empty() || (most != 0 && surface->sites().size() >= most)) {
+    return false;
+  }
+  const std::pmr::vector<Share> before(surface->shares().begin(), surface->shares().end(), &host.memory);
+  std::pmr::vector<std::uint32_t> before_sites(&host.memory);
+  before_sites.reserve(direct.size());
+  for (const Sample& sample : surface->samples()) {
+    before_sites.push_back(sample.site);
+  }
+  const auto origins = surface->refine(raised, most);
+  follow(before, before_sites, origins);
+  if (pending_.empty()) {
+    return false;
+  }
+  ++round_;
+  source_ = 0;
+  stage_ = Stage::direct;
+  return true;
+}
+
+// Renumbers what is known of samples and shares after a refinement; new samples are pending.
+void Solver::follow(std::span<const Share> before, std::span<const std::uint32_t> before_sites,
+                    std::span<const SampleOrigin> origins) {
+  std::pmr::memory_resource* memory = &host.memory;
+  std::pmr::vector<std::uint32_t> now(direct.size(), k_none, memory);
+  pending_.clear();
+  for (std::uint32_t i = 0; i < origins.size(); ++i) {
+    if (origins[i].kept) {
+      now[origins[i].samples[0]] = i;
+    } else {
+      pending_.push_back(i);
+    }
+  }
+  renumber(anchors_, origins, k_unanchored);
+  for (const std::uint32_t sample : pending_) {
+    anchors_[sample] = origins[sample];
+  }
+  for (SampleOrigin& anchor : anchors_) {
+    bool all = anchor.samples[0] != k_none;
+    for (std::size_t k = 0; all && k < 3; ++k) {
+      anchor.samples[k] = now[anchor.samples[k]];
+      all = anchor.samples[k] != k_none;
+    }
+    if (!all) {
+      anchor = k_unanchored;
+    }
+  }
+  renumber(direct, origins, Color(0.0));
+  renumber(sights_, origins, std::uint64_t{0});
+  renumber(records_, origins, k_none);
+  renumber(outlooks_, origins, Outlook{});
+  renumber(first_bounce_, origins, Color(0.0));
+  renumber(unprobed_, origins, std::uint8_t{1});
+  std::size_t still = 0;
+  for (const std::uint32_t sample : interpolated_) {
+    if (now[sample] != k_none) {
+      interpolated_[still++] = now[sample];
+    }
+  }
+  interpolated_.resize(still);
+  indirect.assign(origins.size(), Color(0.0));
+
+  hemispheres_->renumber(shares_now(before, before_sites, now));
+  place_receivers();
+  blocks_.emplace(*surface, receivers_, pending_, host);
+}
+
+// The number of each old share: the one of the same facet and side in its sample. Where a sample is no more (a facet
+// too thin to be triangulated anew takes its sectors apart), one of the same facet and side at the same site.
+std::pmr::vector<std::uint32_t> Solver::shares_now(std::span<const Share> before,
+                                                   std::span<const std::uint32_t> before_sites,
+                                                   std::span<const std::uint32_t> now) const {
+  const auto shares = surface->shares();
+  const auto samples = surface->samples();
+  std::pmr::vector<std::uint32_t> share_now(before.size(), k_none, &host.memory);
+  std::pmr::vector<std::uint32_t> orphans(&host.memory);
+  for (std::uint32_t s = 0; s < before.size(); ++s) {
+    std::uint32_t share = now[before[s].sample] == k_none ? k_none : samples[now[before[s].sample]].first_share;
+    while (share != k_none && (shares[share].facet != before[s].facet || shares[share].back != before[s].back)) {
+      share = shares[share].next_in_sample;
+    }
+    share_now[s] = share;
+    if (share == k_none) {
+      orphans.push_back(s);
+    }
+  }
+  if (orphans.empty()) {
+    return share_now;
+  }
+  std::pmr::vector<std::uint32_t> first_at_site(surface->sites().size(), k_none, &host.memory);
+  std::pmr::vector<std::uint32_t> next_at_site(shares.size(), k_none, &host.memory);
+  std::pmr::vector<std::uint32_t> any_of_facet(facets->facets.size(), k_none, &host.memory);
+  for (std::uint32_t s = 0; s < shares.size(); ++s) {
+    const std::uint32_t site = samples[shares[s].sample].site;
+    next_at_site[s] = first_at_site[site];
+    first_at_site[site] = s;
+    any_of_facet[shares[s].facet] = s;
+  }
+  for (const std::uint32_t s : orphans) {
+    std::uint32_t share = first_at_site[before_sites[before[s].sample]];
+    while (share != k_none && (shares[share].facet != before[s].facet || shares[share].back != before[s].back)) {
+      share = next_at_site[share];
+    }
+    share_now[s] = share != k_none ? share : any_of_facet[before[s].facet];
+  }
+  return share_now;
+}
+
+}  // namespace radvor

@@ -1,0 +1,139 @@
+// Whether light between the samples is what they say.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "base/hash.h"
+#include "radiosity/method.h"
+#include "radiosity/solver.h"
+
+namespace radvor {
+
+namespace {
+
+constexpr double k_probed = 0.1;  // of the squared tolerance: share of the area that a triangle is probed from
+constexpr double k_noise = 2;     // standard errors of a hemisphere of one ray; they fall by N^(-3/4)
+
+}  // namespace
+
+// The light that is being followed, in the middle of triangles. A triangle that is wrong by the mean irradiance is
+// worth its share of the area against the squared tolerance: smaller ones than a tenth of that are not looked into.
+void Solver::probe() {
+  if (block_ == 0) {
+    place_probes_due();
+  }
+  const auto count = static_cast<std::uint32_t>((probes_.size() + ReceiverBlocks::k_size - 1) / ReceiverBlocks::k_size);
+  const std::uint32_t end = std::min(count, block_ + 4 * host.jobs.thread_count());
+  const Color sky = k_pi * light_->sky_radiance();
+  over(block_, end, [&](std::uint32_t block, Tracer& tracer) {
+    const std::size_t stop = std::min<std::size_t>(probes_.size(), std::size_t{block + 1} * ReceiverBlocks::k_size);
+    for (std::size_t k = std::size_t{block} * ReceiverBlocks::k_size; k < stop; ++k) {
+      const Probe& probe = probes_[k];
+      if (looking_) {
+        const std::uint64_t seed = hash(options.seed, std::uint64_t{round_} + 1, k);
+        const Outlook outlook =
+            hemispheres_->glance(probe.receiver, probe_rays(), seed, *surface, radiosity_, tracer, probed_[k]);
+        probed_[k] += outlook.open * sky;
+        continue;
+      }
+      for (std::uint32_t source = 0; source < light_->source_count(); ++source) {
+        Sight sight;
+        probed_[k] += light_->irradiance(source, probe.receiver, tracer, sight);
+      }
+    }
+  });
+  block_ = end;
+  if (block_ < count) {
+    return;
+  }
+  block_ = 0;
+  if (round_ < 3 * surface->max_level() && raise(wrong_between())) {
+    return;
+  }
+  if (looking_) {
+    stage_ = Stage::account;
+  } else {
+    begin_looking();
+  }
+}
+
+std::uint32_t Solver::probe_rays() const {
+  return std::bit_ceil(
+      static_cast<std::uint32_t>(std::clamp(k_rays / 2 / options.tolerance, k_least_rays, k_most_rays)));
+}
+
+void Solver::place_probes_due() {
+  double area = 0;
+  for (const Sample& sample : surface->samples()) {
+    area += sample.area;
+  }
+  const double least = std::max(k_probed * options.tolerance * options.tolerance * area, 1e-300);
+  probes_ = place_probes(*surface, least, unprobed_, visibility_->lift(), host);
+  if (looking_) {
+    // Light from all around changes over the distance of what is seen: where that is far, nothing is between.
+    const double most = 0.5 * k_reach * std::sqrt(options.tolerance);
+    std::erase_if(probes_, [&](const Probe& probe) {
+      return std::none_of(probe.samples.begin(), probe.samples.end(), [&](std::uint32_t sample) {
+        return outlooks_[sample].inverse_distance * glm::distance(receivers_[sample].point, probe.receiver.point) >
+               most;
+      });
+    });
+  }
+  probed_.assign(probes_.size(), Color(0.0));
+  std::fill(unprobed_.begin(), unprobed_.end(), std::uint8_t{0});
+}
+
+// Sites about the triangles whose probes say otherwise than their corners, worst first, until the rest is within the
+// tolerance. What noise explains says nothing.
+std::pmr::vector<std::uint32_t> Solver::wrong_between() const {
+  const auto samples = surface->samples();
+  std::pmr::vector<Color> light(direct, &host.memory);
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    light[i] += first_bounce_[i];
+  }
+  const double mean = mean_of(light);
+  const Color sky = k_pi * light_->sky_radiance();
+  const double noise = looking_ ? k_noise * std::pow(probe_rays(), -0.75) : 0;
+  struct Wrong {
+    double score;
+    std::uint32_t probe;
+  };
+  std::pmr::vector<Wrong> wrong(&host.memory);
+  double left = 0, area = 0;
+  for (const Sample& sample : samples) {
+    area += sample.area;
+  }
+  for (std::uint32_t k = 0; k < probes_.size() && mean > 0; ++k) {
+    const Probe& probe = probes_[k];
+    double expected = 0;
+    for (const std::uint32_t sample : probe.samples) {
+      expected += sum(looking_ ? outlooks_[sample].open * sky + first_bounce_[sample] : direct[sample]) / 9;
+    }
+    const double found = sum(probed_[k]) / 3;
+    const double error = std::max(0.0, std::abs(found - expected) - noise * std::max(found, expected));
+    const double relative = error / (k_share_of_mesh * options.tolerance * mean);
+    const double score = relative * relative * probe.area;
+    left += score;
+    wrong.push_back({score, k});
+  }
+  std::sort(wrong.begin(), wrong.end(),
+            [](const Wrong& a, const Wrong& b) { return a.score != b.score ? a.score > b.score : a.probe < b.probe; });
+  std::pmr::vector<std::uint32_t> raised(&host.memory);
+  std::pmr::vector<std::uint8_t> is_raised(surface->sites().size(), 0, &host.memory);
+  for (const Wrong& of : wrong) {
+    if (left <= area) {
+      break;
+    }
+    left -= of.score;
+    for (const std::uint32_t sample : probes_[of.probe].samples) {
+      const std::uint32_t site = samples[sample].site;
+      if (is_raised[site] == 0) {
+        is_raised[site] = 1;
+        raised.push_back(site);
+      }
+    }
+  }
+  return raised;
+}
+
+}  // namespace radvor
