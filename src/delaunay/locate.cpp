@@ -215,15 +215,18 @@ Location Triangulation::straight_walk(Vec2 point, VertexId start, const Lattice&
   }
 }
 
-TriangleId Triangulation::locate_roughly(Vec2 point, std::array<double, 3>& weights) const {
+TriangleId Triangulation::locate_roughly(Vec2 point, std::array<double, 3>& weights, TriangleId start) const {
   if (flat_ || vertex_count_ < 3) {
     return k_none;
   }
-  HalfEdge start = start_near(point, k_none);
-  while (apex(start) != k_infinite && is_ghost(triangle_of(start))) {
-    start = next(start);
+  TriangleId t = start;
+  if (t == k_none) {
+    HalfEdge h = start_near(point, k_none);
+    while (apex(h) != k_infinite && is_ghost(triangle_of(h))) {
+      h = next(h);
+    }
+    t = triangle_of(is_ghost(triangle_of(h)) ? twin(h) : h);
   }
-  TriangleId t = triangle_of(is_ghost(triangle_of(start)) ? twin(start) : start);
   constexpr int k_most_steps = 64;
   for (int step = 0; step < k_most_steps && !is_ghost(t); ++step) {
     const Triangle& triangle = mesh_.triangle(t);

@@ -174,7 +174,8 @@ class Triangulation {
   Location locate(Vec2 point, VertexId* hint = nullptr) const;
   /// As locate, in plain double precision: a triangle that the point is in but for rounding, and the weights of its
   /// corners (>= 0, sum 1). Several times as fast. k_none where it cannot tell: outside of the hull, and elsewhere too.
-  TriangleId locate_roughly(Vec2 point, std::array<double, 3>& weights) const;
+  /// start: a real triangle near it, or k_none.
+  TriangleId locate_roughly(Vec2 point, std::array<double, 3>& weights, TriangleId start = k_none) const;
 
   /// Corner weights of a point in the triangle: affine, sum 1.
   std::array<double, 3> barycentric(TriangleId t, Vec2 point) const;

@@ -15,9 +15,12 @@ FacetMesh::FacetMesh(const FacetInput& input, FacetDraft& draft)
       next_in_polygon_(input.memory),
       index_of_triangle_(input.memory),
       first_share_(input.memory),
-      sites_(input.memory) {
+      sites_(input.memory),
+      raster_(input.memory) {
   if (!FacetTriangulator(input, *this, draft).run()) {
     cut_triangles(input, triangles_, draft);
+  } else {
+    raster_.fill(*delaunay_);
   }
 }
 

@@ -13,6 +13,7 @@
 #include "surface/facet_draft.h"
 #include "surface/lattice.h"
 #include "surface/surface.h"
+#include "surface/triangle_raster.h"
 
 namespace radvor {
 
@@ -74,7 +75,7 @@ class FacetMesh {
   std::uint32_t locate(const Vec2& point) const;
   /// As locate, and fast, with weights of the corners; k_none where it cannot tell. Before ties are aligned.
   std::uint32_t locate_roughly(const Vec2& point, std::array<double, 3>& weights) const {
-    const delaunay::TriangleId found = delaunay_->locate_roughly(point, weights);
+    const delaunay::TriangleId found = delaunay_->locate_roughly(point, weights, raster_.at(point));
     return found == delaunay::k_none ? k_none : index_of_triangle_[found];
   }
 
@@ -92,6 +93,7 @@ class FacetMesh {
   std::pmr::vector<std::uint32_t> first_share_;        // per vertex and one past the last
   std::pmr::vector<std::uint32_t> sites_;              // per vertex
   std::uint32_t border_count_ = 0;
+  TriangleRaster raster_;
 };
 
 }  // namespace radvor

@@ -1,13 +1,15 @@
-// Processor time to build surfaces and to refine them, on one core, per site: what a bake spends on meshing. Real
-// scenes where they are there, and a room of boxes.
+// Processor time to build surfaces, to refine them, per site, and to find points on them, on one core: what a bake
+// spends on meshing. Real scenes where they are there, and a room of boxes.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <optional>
 #include <vector>
 
+#include "base/hash.h"
 #include "scene/facets.h"
 #include "scene/obj_scene.h"
 #include "support/test_host.h"
@@ -112,5 +114,54 @@ void refine(benchmark::State& state) {
 }
 BENCHMARK(refine)->ArgNames({"scene"})->Args({0})->Args({1})->Args({2})->Args({3})->Args({4})->Unit(
     benchmark::kMillisecond);
+
+// Rays that hit a refined surface anywhere: the triangle of each point.
+void locate(benchmark::State& state) {
+  Given given(state.range(0));
+  const SurfaceOptions options = given.options(0);
+  Surface surface(given.scene, given.welded, given.facets, options, given.host);
+  const Vec3 middle = 0.5 * (given.welded.low + given.welded.high);
+  for (std::uint32_t level = 0; level < surface.max_level(); ++level) {
+    std::vector<std::uint32_t> sites;
+    for (std::uint32_t site = 0; site < surface.sites().size(); ++site) {
+      if (surface.level_of(site) == level && std::abs(surface.sites()[site].position.x - middle.x) <
+                                                 std::ldexp(options.patch_spacing, -static_cast<int>(level))) {
+        sites.push_back(site);
+      }
+    }
+    surface.refine(sites);
+  }
+  // By area, in an order without any coherence.
+  struct Point {
+    std::uint32_t facet;
+    Vec2 position;
+  };
+  std::vector<double> sums;
+  for (const Triangle& triangle : given.welded.triangles) {
+    const auto corner = [&](std::size_t k) { return given.welded.positions[triangle.vertices[k]]; };
+    sums.push_back((sums.empty() ? 0 : sums.back()) +
+                   glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0))));
+  }
+  std::vector<Point> points;
+  for (std::uint64_t k = 0; k < 1 << 16; ++k) {
+    const double draw = to_unit(hash(k, 0)) * sums.back();
+    const auto t = static_cast<std::size_t>(std::lower_bound(sums.begin(), sums.end(), draw) - sums.begin());
+    const auto& vertices = given.welded.triangles[t].vertices;
+    const double u = 1 - std::sqrt(to_unit(hash(k, 1)));
+    const double v = (1 - u) * to_unit(hash(k, 2));
+    const std::uint32_t facet = given.facets.facet_of_triangle[t];
+    points.push_back({facet, given.facets.facets[facet].frame.to_plane(
+                                 (1 - u - v) * given.welded.positions[vertices[0]] +
+                                 u * given.welded.positions[vertices[1]] + v * given.welded.positions[vertices[2]])});
+  }
+  std::size_t next = 0;
+  for (auto _ : state) {
+    const Point& point = points[next];
+    next = (next + 1) % points.size();
+    benchmark::DoNotOptimize(surface.locate(point.facet, point.position));
+  }
+  state.counters["sites"] = static_cast<double>(surface.sites().size());
+}
+BENCHMARK(locate)->ArgNames({"scene"})->Args({0})->Args({1})->Args({2})->Args({3})->Args({4});
 
 }  // namespace

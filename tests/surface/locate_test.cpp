@@ -1,0 +1,59 @@
+// Points are found in the triangles that they lie in, wherever a facet is dense, concave or has holes.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "surface/made_surface.h"
+#include "surface/solids.h"
+
+namespace radvor {
+namespace {
+
+using test::MadeSurface;
+using test::SceneBuilder;
+
+void expect_found(const MadeSurface& made, std::mt19937& random, int points) {
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (int k = 0; k < points; ++k) {
+    const auto t = static_cast<std::uint32_t>(random() % made.welded.triangles.size());
+    const auto& corners = made.welded.triangles[t].vertices;
+    const double u = uniform(random);
+    const double v = uniform(random) * (1 - u);
+    const Vec3 point = (1 - u - v) * made.welded.positions[corners[0]] + u * made.welded.positions[corners[1]] +
+                       v * made.welded.positions[corners[2]];
+    const std::uint32_t facet = made.facets.facet_of_triangle[t];
+    const FacetPoint found = made.surface.locate(facet, made.facets.facets[facet].frame.to_plane(point));
+    Vec3 back(0.0);
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_EQ(made.surface.shares()[found.shares[c]].facet, facet);
+      EXPECT_GE(found.weights[c], 0);
+      back += found.weights[c] * test::site_of(made.surface, found.shares[c]).position;
+    }
+    EXPECT_LT(glm::distance(back, point), 1e-9);  // weights would be cut off in another triangle
+  }
+}
+
+TEST(Locate, FindsPointsOnRefinedFacetsWithHoles) {
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 12; ++trial) {
+    SceneBuilder builder(std::pmr::get_default_resource());
+    std::vector<Vec2> outer, inner;
+    test::random_rings(random, 4 + static_cast<std::size_t>(trial), outer, inner);
+    builder.prism(outer, trial % 3 == 0 ? std::vector<Vec2>() : inner, 0.7f);
+    const double spacing = std::uniform_real_distribution<double>(0.05, 1.0)(random);
+    MadeSurface made(builder.take(),
+                     {trial % 2 ? Lattice::hexagonal : Lattice::quadrilateral, spacing, 0, spacing / 16});
+    expect_found(made, random, 300);
+    for (int round = 0; round < 4; ++round) {
+      const auto count = static_cast<std::uint32_t>(made.surface.sites().size());
+      std::vector<std::uint32_t> sites = {static_cast<std::uint32_t>(random() % count), count - 1};
+      made.surface.refine(sites);
+    }
+    expect_found(made, random, 300);
+    made.surface.align_ties(std::vector<double>(made.surface.samples().size(), 1.0), 0);
+    expect_found(made, random, 300);
+  }
+}
+
+}  // namespace
+}  // namespace radvor
