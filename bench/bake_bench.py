@@ -32,7 +32,7 @@ def parse_arguments():
     parser.add_argument("words", nargs="*", metavar="[STUDY] [SCENE...]")
     parser.add_argument("--only", default="radvor,uniform,tracer", help="curves to measure, of radvor,uniform,tracer")
     parser.add_argument("--cycles", action="store_true", help="Blender Cycles' vertex bake as well, where blender is installed")
-    parser.add_argument("--max-seconds", type=float, default=120, help="of one bake")
+    parser.add_argument("--max-seconds", type=float, default=60, help="processor seconds of one bake")
     parser.add_argument("--tracer-seconds", type=float, default=10, help="no doubling of samples begins after that")
     parser.add_argument("--tolerance", type=float, default=0.02, help="of the studies")
     parser.add_argument("--slice", type=float, default=0.05, help="of first-light")

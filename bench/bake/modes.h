@@ -16,7 +16,8 @@ struct TraceOptions {
 };
 int trace_mode(const TraceOptions& options);
 
-/// Bakes as radvor-bake does with the same arguments, and prints its statistics as JSON, processor time with them.
+/// Bakes as radvor-bake does with the same arguments, and prints its statistics as JSON, processor time with them;
+/// --max-seconds counts processor time.
 int radvor_mode(int argc, const char* const* argv);
 
 /// The same in slices of so many seconds, direct light alone: what each took, and the light at the points after it.

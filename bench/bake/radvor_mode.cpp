@@ -31,6 +31,15 @@ std::uint64_t resident_bytes() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
+/// Cancels a bake at a limit of processor time: on a busy machine a limit of the clock would cut short what is not
+/// slow.
+struct ProcessorLimit {
+  double until;
+  static std::int32_t check(void* limit, const radvor_progress*) {
+    return processor_seconds() > static_cast<const ProcessorLimit*>(limit)->until ? 1 : 0;
+  }
+};
+
 void measure(const bake::Options& options, const bake::SceneData& scene, const bake::BakedScene& baked,
              const bake::Points& points, const std::string& file) {
   const bake::Bounds box = bake::bounds_of(scene);
@@ -51,16 +60,18 @@ nlohmann::json statistics(const bake::BakedScene& baked, radvor_result result, c
 }  // namespace
 
 int radvor_mode(int argc, const char* const* argv) {
-  const std::optional<bake::Options> options = bake::parse_options(argc, argv);
+  std::optional<bake::Options> options = bake::parse_options(argc, argv);
   if (!options) {
     return 0;
   }
   const bake::SceneData scene = load_scene(options->scene);
   const bake::Points points = options->points.empty() ? bake::Points{} : bake::load_points(options->points);
+  ProcessorLimit limit{options->bake.max_seconds > 0 ? processor_seconds() + options->bake.max_seconds : 1e300};
+  options->bake.max_seconds = 0;
   const auto begin = std::chrono::steady_clock::now();
   const double cpu_begin = processor_seconds();
   bake::BakedScene baked(scene, *options, log_errors, nullptr);
-  const radvor_result result = baked.run(nullptr, nullptr);
+  const radvor_result result = baked.run(ProcessorLimit::check, &limit);
   const double cpu = processor_seconds() - cpu_begin;
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   nlohmann::json json = statistics(baked, result, *options, scene);

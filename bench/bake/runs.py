@@ -83,7 +83,8 @@ def run(arguments, seconds=3600, environment=None):
 
 
 def bake(scene, arguments, most_seconds, direct=False, keep=False):
-    """A bake's statistics with its error (keep: with the values too); None where it did not return in thrice its limit."""
+    """A bake's statistics with its error (keep: with the values too); None where it did not return in ten times its
+    limit of processor seconds."""
     reference = scene.reference(direct)
     with tempfile.TemporaryDirectory() as folder:
         command = ["radvor", scene.obj, *scene.light_arguments(), "--max-seconds", most_seconds, *arguments]
@@ -92,7 +93,7 @@ def bake(scene, arguments, most_seconds, direct=False, keep=False):
             command += ["--points", reference, "--points-out", values]
         if direct:
             command += ["--disable", "indirect", "--quantity", "direct"]
-        lines = run(command, seconds=3 * most_seconds + 60)
+        lines = run(command, seconds=10 * most_seconds + 60)
         if not lines:
             return None
         result = lines[0]

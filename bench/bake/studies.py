@@ -187,8 +187,8 @@ def city(_, options):
     scene.reference = lambda direct=False: None
     run = runs.bake(scene, ["--tolerance", 0.2, "--threads", 2, *k_city_lights], options.max_seconds)
     if run is None:
-        say(f"{scene.name}: no answer in {3 * options.max_seconds + 60:.0f} s")
-        return {"finished": False, "stopped_after_seconds": 3 * options.max_seconds + 60}
+        say(f"{scene.name}: no answer in {10 * options.max_seconds + 60:.0f} s")
+        return {"finished": False, "stopped_after_seconds": 10 * options.max_seconds + 60}
     curves.say(scene, "tolerance 0.2", run)
     say(f"{'':<12} {run['input_triangles']:,} triangles, {run['seconds']:.0f} s on 2 threads, "
         f"{run['peak_bytes'] / 2**30:.2f} GiB by its count, {run['resident_bytes'] / 2**30:.2f} GiB resident")
