@@ -30,6 +30,7 @@ radvor_bake_options adaptive(std::uint32_t sites, std::uint32_t lattice) {
   options.element_levels = 1;
   options.min_spacing = k_min_spacing;
   options.max_sites = sites;
+  options.disable = RADVOR_DISABLE_INTERSECTIONS;
   return options;
 }
 
@@ -43,7 +44,8 @@ radvor_bake_options uniform(double sites, std::uint32_t lattice) {
   options.patch_spacing = static_cast<float>(2 * shape / rows);
   options.element_levels = 1;
   options.min_spacing = options.patch_spacing / 2;
-  options.disable = RADVOR_DISABLE_REFINEMENT | RADVOR_DISABLE_TIE_ALIGNMENT;
+  // Nothing touches here; but where cells are larger than the occluder's height its outline would be taken in.
+  options.disable = RADVOR_DISABLE_REFINEMENT | RADVOR_DISABLE_TIE_ALIGNMENT | RADVOR_DISABLE_INTERSECTIONS;
   return options;
 }
 
