@@ -75,14 +75,14 @@ struct Scene {
     }
   }
 
-  bool sees(Vec2 x, VertexId s) const {
+  bool sees(Vec2 x, VertexId s, const Lattice& lattice) const {
     for (const Edge& edge : blocking) {
       if (edge.a == s || edge.b == s) {
         continue;
       }
       const Vec2 a = d.position(edge.a), b = d.position(edge.b), p = d.position(s);
-      if (exact::orientation(a, b, x) * exact::orientation(a, b, p) < 0 &&
-          exact::orientation(x, p, a) * exact::orientation(x, p, b) <= 0) {
+      if (orientation(a, b, x, lattice) * orientation(a, b, p, lattice) < 0 &&
+          orientation(x, p, a, lattice) * orientation(x, p, b, lattice) <= 0) {
         return false;
       }
     }
@@ -142,10 +142,12 @@ void check_scene(const Scene& scene, std::size_t samples, std::uint32_t seed) {
     ++inside;
     VertexId nearest = k_none;
     double distance = INFINITY, second = INFINITY;
+    Lattice lattice = d.lattice();
+    lattice.include(p);
     for (VertexId v = 0; v < d.vertex_bound(); ++v) {
       const Vec2 to = d.position(v) - p;
       const double r = std::sqrt(glm::dot(to, to));
-      if (r < second && scene.sees(p, v)) {
+      if (r < second && scene.sees(p, v, lattice)) {
         if (r < distance) {
           second = distance;
           distance = r;
