@@ -10,7 +10,7 @@ namespace radvor {
 namespace {
 
 constexpr double k_patches_at_unit_tolerance = 30;  // patches = this / tolerance
-constexpr std::uint32_t k_refinements = 4;          // from the patches to min_spacing, where left open
+constexpr std::uint32_t k_refinements = 5;          // from the patches to min_spacing, where left open
 constexpr double k_most_sites = 1 << 28;            // ids are 32 bits, and a sample may have several shares
 
 // What the number of sites depends on: lattice sites go by area, border sites by length, corners are there anyway.
