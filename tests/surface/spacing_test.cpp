@@ -67,13 +67,13 @@ TEST(Spacing, WhatIsAskedForIsTaken) {
   EXPECT_EQ(options.element_levels, 2u);
 }
 
-TEST(Spacing, RefinementBeginsWithThePatchesAndEndsAtASixteenth) {
+TEST(Spacing, RefinementBeginsWithThePatchesAndEndsAtAThirtySecond) {
   const Room room;
   SpacingRequest request;
   request.refines = true;
   SurfaceOptions options = room.choose(request);
   EXPECT_EQ(options.element_levels, 0u);
-  EXPECT_EQ(options.min_spacing, options.patch_spacing / 16);
+  EXPECT_EQ(options.min_spacing, options.patch_spacing / 32);
   EXPECT_EQ(refinements(options), 4u);
   request.element_levels = 3;
   EXPECT_EQ(refinements(room.choose(request)), 1u);
