@@ -74,9 +74,9 @@ TEST(Spacing, RefinementBeginsWithThePatchesAndEndsAtAThirtySecond) {
   SurfaceOptions options = room.choose(request);
   EXPECT_EQ(options.element_levels, 0u);
   EXPECT_EQ(options.min_spacing, options.patch_spacing / 32);
-  EXPECT_EQ(refinements(options), 4u);
+  EXPECT_EQ(refinements(options), 5u);
   request.element_levels = 3;
-  EXPECT_EQ(refinements(room.choose(request)), 1u);
+  EXPECT_EQ(refinements(room.choose(request)), 2u);
   request.element_levels = 5;
   EXPECT_EQ(refinements(room.choose(request)), 0u);
   request.refines = false;
