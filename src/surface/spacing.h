@@ -7,7 +7,7 @@
 
 namespace radvor {
 
-/// Whether sites are added where light demands them, unless the host turns it off: not before light asks for them.
+/// Whether sites are added where light demands them, unless the host turns it off.
 inline constexpr bool k_refines_by_default = true;
 
 /// What the host may say about density; 0 leaves it open.
