@@ -31,8 +31,14 @@ k_most_bytes = 8 << 30
 # What a scene is baked with beyond the defaults.
 k_arguments = {}
 
-# The largest rms for a scene to pass, at default options.
-k_bounds = {"cornell": 0.05}
+# The largest errors for a scene to pass, at default options.
+k_bounds = {
+    "cornell": {"rms": 0.02, "local": 0.05},
+    "gazebo": {"rms": 0.03},
+    "kenney-fps": {"rms99": 0.02, "local": 0.1},
+    "living-room": {"rms99": 0.06, "local": 0.15},
+    "staircase": {"rms99": 0.05},
+}
 
 k_columns = [  # heading, key, how it is written
     ("rms", "rms", lambda v: f"{100 * v:.2f} %"),
@@ -112,9 +118,9 @@ def bake(scene, options, bake_arguments, folder):
             wrong.append((compare.stderr or compare.stdout).strip())
         else:
             result["error"] = json.loads(compare.stdout)
-            bound = k_bounds.get(name)
-            if bound and not options.direct and not bake_arguments and result["error"]["rms"] > bound:
-                wrong.append(f"rms {100 * result['error']['rms']:.2f} % is more than {100 * bound:g} %")
+            for figure, bound in k_bounds.get(name, {}).items():
+                if not options.direct and not bake_arguments and result["error"][figure] > bound:
+                    wrong.append(f"{figure} {100 * result['error'][figure]:.2f} % is more than {100 * bound:g} %")
     if seconds > k_most_seconds:
         wrong.append(f"{seconds:.0f} s are more than {k_most_seconds} s")
     if max(resident, result["peak_bytes"]) > k_most_bytes:

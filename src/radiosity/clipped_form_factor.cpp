@@ -13,6 +13,9 @@ namespace {
 
 constexpr std::size_t k_room = 64;  // occluders that are kept at most
 
+// Of the whole: what rounding leaves along the cuts of triangles that together hide everything.
+constexpr double k_splinter = 1e-12;
+
 }  // namespace
 
 std::size_t cut_at_horizon(const Receiver& receiver, std::span<const Vec3> polygon, std::span<Vec3> part) {
@@ -66,7 +69,8 @@ std::optional<double> clip(const Receiver& receiver, std::span<const Vec3> polyg
     return whole;
   }
   tracer.counters.form_factors += visible.piece_count();
-  return measure(visible.form_factor(receiver.point, receiver.normal));
+  const double seen = measure(visible.form_factor(receiver.point, receiver.normal));
+  return seen > k_splinter * whole ? seen : 0;
 }
 
 }  // namespace

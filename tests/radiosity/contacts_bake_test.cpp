@@ -158,5 +158,30 @@ TEST(ContactLight, NothingOfItWhereItIsTurnedOff) {
   }
 }
 
+TEST(ContactLight, InsideASealedBoxUnderAnAreaLampIsDarkToTheLastBit) {
+  // Found with contacts: clipping left splinters of 1e-19 along the edges of triangles that together hide the lamp.
+  for (const bool refines : {false, true}) {
+    SceneBuilder builder;
+    const std::uint32_t grey = builder.material(Color(0.7));
+    const std::uint32_t inner = builder.material(Color(0.7));
+    builder.quad({0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, grey);
+    builder.box({1.1, 1.3, 0}, {2.3, 2.9, 1.2}, false, grey);
+    builder.box({1.15, 1.35, 0.05}, {2.25, 2.85, 1.15}, true, inner);
+    builder.quad({1, 1, 3}, {1, 3, 3}, {3, 3, 3}, {3, 1, 3}, builder.material(Color(0.0), Color(10.0)));
+    BakeOptions options = spaced(0.4);
+    options.spacing.refines = refines;
+    TestBake bake(builder.take(), options);
+    ASSERT_EQ(bake.run(), BakeStatus::converged);
+    std::size_t inside = 0;
+    for (std::size_t i = 0; i < bake->surface().samples().size(); ++i) {
+      if (bake->facets().facets[bake->surface().samples()[i].facet].material == inner) {
+        EXPECT_EQ(bake.irradiance(i), Color(0.0));
+        ++inside;
+      }
+    }
+    EXPECT_GT(inside, 50u);
+  }
+}
+
 }  // namespace
 }  // namespace radvor
