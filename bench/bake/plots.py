@@ -15,17 +15,17 @@ k_styles = {  # method: its words, colour, marker
 
 def draw(scene, figure, curves, points, file):
     """curves: method -> list of runs; figure: rms or rms99."""
-    picture, axes = pyplot.subplots(figsize=(5.6, 3.8), dpi=100)
+    picture, axes = pyplot.subplots(figsize=(5.6, 4.2), dpi=100)
     for method, (words, colour, marker) in k_styles.items():
         runs = [r for r in curves.get(method, []) if r.get("error") and r["error"][figure] > 0]
         if not runs:
             continue
-        x = [r["cpu_seconds"] for r in runs]
-        y = [100 * r["error"][figure] for r in runs]
-        axes.plot(x, y, color=colour, marker=marker, markersize=4, label=words.format(points=f"{points:,}"))
-        cut = [(a, b) for a, b, r in zip(x, y, runs) if not r.get("finished", True)]
-        if cut:  # hollow: stopped by the limit of time
-            axes.plot(*zip(*cut), marker=marker, markersize=9, color=colour, markerfacecolor="none", linestyle="none")
+        for finished, style in ((True, {}), (False, {"markerfacecolor": "none", "linestyle": "none"})):
+            told = [r for r in runs if r.get("finished", True) == finished]  # hollow: stopped by the limit of time
+            label = words.format(points=f"{points:,}") if finished or len(told) == len(runs) else None
+            if told:
+                axes.plot([r["cpu_seconds"] for r in told], [100 * r["error"][figure] for r in told], color=colour,
+                          marker=marker, markersize=4 if finished else 7, label=label, **style)
     axes.set_xscale("log")
     axes.set_yscale("log")
     for axis in (axes.xaxis, axes.yaxis):
@@ -35,7 +35,7 @@ def draw(scene, figure, curves, points, file):
     axes.set_title(scene, fontsize=10)
     axes.grid(True, which="major", color="#cccccc", linewidth=0.6)
     axes.grid(True, which="minor", color="#eeeeee", linewidth=0.4)
-    axes.legend(fontsize=7)
+    axes.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.2), ncol=2, frameon=False)
     picture.tight_layout()
     picture.savefig(file, pil_kwargs={"optimize": True})
     pyplot.close(picture)
