@@ -41,6 +41,11 @@ void* allocate_or_throw(std::size_t bytes, std::size_t alignment, const void* ca
   throw std::bad_alloc();
 }
 
+// Kept whole: inlined into some delete, gcc 12 takes it for the wrong partner of new.
+[[gnu::noinline]] void give_back(void* memory) {
+  std::free(memory);
+}
+
 constexpr std::size_t k_plain = alignof(std::max_align_t);
 
 }  // namespace
@@ -66,25 +71,25 @@ void* operator new(std::size_t bytes, std::align_val_t alignment, const std::not
   return allocate(bytes, static_cast<std::size_t>(alignment), RADVOR_CALLER);
 }
 void operator delete(void* memory) noexcept {
-  std::free(memory);
+  give_back(memory);
 }
 void operator delete[](void* memory) noexcept {
-  std::free(memory);
+  give_back(memory);
 }
 void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
+  give_back(memory);
 }
 void operator delete[](void* memory, std::size_t) noexcept {
-  std::free(memory);
+  give_back(memory);
 }
 void operator delete(void* memory, std::align_val_t) noexcept {
-  std::free(memory);
+  give_back(memory);
 }
 void operator delete[](void* memory, std::align_val_t) noexcept {
-  std::free(memory);
+  give_back(memory);
 }
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-  std::free(memory);
+  give_back(memory);
 }
 
 namespace radvor::test {
