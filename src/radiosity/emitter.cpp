@@ -28,6 +28,8 @@ Vec3 centre(const std::array<Vec3, 3>& t) {
 }
 
 constexpr std::size_t k_max_clipped = 64;  // occluders; rays where there are more
+// Where sixteen rays are all blocked a few triangles may still leave a corner to be seen; a crowd does not.
+constexpr std::size_t k_max_clipped_dark = 12;
 constexpr int k_max_depth = 7;
 constexpr std::size_t k_stack = 3 * k_max_depth + 5;
 
@@ -64,6 +66,23 @@ void look(const Emitter& emitter, const Receiver& receiver, Tracer& tracer, std:
   }
 }
 
+// Whether rays to sixteen points of the emitter are all blocked; points under the horizon do not count.
+bool looks_dark(const Emitter& emitter, const Receiver& receiver, Tracer& tracer) {
+  std::array<Part, 4> parts;
+  std::size_t count = 0;
+  for (const auto& corners : quarter(emitter.corners)) {
+    parts[count++] = {corners, 0, 1};
+  }
+  std::array<Verdict, 4> verdicts;
+  look(emitter, receiver, tracer, parts, verdicts);
+  int hidden = 0, seen = 0;
+  for (const Verdict& verdict : verdicts) {
+    hidden += verdict.hidden;
+    seen += verdict.seen;
+  }
+  return seen == 0 && hidden > 0;
+}
+
 }  // namespace
 
 Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tracer& tracer,
@@ -77,11 +96,13 @@ Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tr
   // Form factors relative to the mean irradiance: where rays disagree, a part stays whole when it is worth less than
   // this. A penumbra has some 2^depth such parts with independent errors, so far less than their sum is lost.
   const double may_stay = 1.0 * accuracy.tolerance * accuracy.mean_irradiance / luminance(emitter.radiosity);
-  if (occluders != nullptr && whole > 0.25 * may_stay) {  // exact, and cheaper than its rays
-    if (const auto seen =
-            clipped_form_factor(receiver, emitter.corners, emitter.normal, whole, k_max_clipped, tracer, *occluders)) {
-      sight = {*seen > 0, *seen < whole};
-      return emitter.radiosity * *seen;
+  if (occluders != nullptr && whole > 0.25 * may_stay) {  // exact, and cheaper than the rays of a penumbra
+    const bool dark = looks_dark(emitter, receiver, tracer);
+    const auto seen = clipped_form_factor(receiver, emitter.corners, emitter.normal, whole,
+                                          dark ? k_max_clipped_dark : k_max_clipped, tracer, *occluders);
+    if (seen || dark) {
+      sight = {seen.value_or(0) > 0, seen.value_or(0) < whole};
+      return emitter.radiosity * seen.value_or(0);
     }
   }
   double visible = 0;
