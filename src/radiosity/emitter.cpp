@@ -28,8 +28,7 @@ Vec3 centre(const std::array<Vec3, 3>& t) {
 }
 
 constexpr std::size_t k_max_clipped = 64;  // occluders; rays where there are more
-// Where sixteen rays are all blocked a few triangles may still leave a corner to be seen; a crowd does not.
-constexpr std::size_t k_max_clipped_dark = 12;
+constexpr std::size_t k_few_clipped = 12;  // exact without any ray; behind a crowd sixteen blocked rays mean dark
 constexpr int k_max_depth = 7;
 constexpr std::size_t k_stack = 3 * k_max_depth + 5;
 
@@ -97,12 +96,16 @@ Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tr
   // this. A penumbra has some 2^depth such parts with independent errors, so far less than their sum is lost.
   const double may_stay = 1.0 * accuracy.tolerance * accuracy.mean_irradiance / luminance(emitter.radiosity);
   if (occluders != nullptr && whole > 0.25 * may_stay) {  // exact, and cheaper than the rays of a penumbra
-    const bool dark = looks_dark(emitter, receiver, tracer);
-    const auto seen = clipped_form_factor(receiver, emitter.corners, emitter.normal, whole,
-                                          dark ? k_max_clipped_dark : k_max_clipped, tracer, *occluders);
-    if (seen || dark) {
-      sight = {seen.value_or(0) > 0, seen.value_or(0) < whole};
-      return emitter.radiosity * seen.value_or(0);
+    const auto clip = [&](std::size_t most) {
+      return clipped_form_factor(receiver, emitter.corners, emitter.normal, whole, most, tracer, *occluders);
+    };
+    auto seen = clip(k_few_clipped);
+    if (!seen) {
+      seen = looks_dark(emitter, receiver, tracer) ? 0 : clip(k_max_clipped);
+    }
+    if (seen) {
+      sight = {*seen > 0, *seen < whole};
+      return emitter.radiosity * *seen;
     }
   }
   double visible = 0;
