@@ -34,12 +34,11 @@ constexpr std::size_t k_stack = 3 * k_max_depth + 5;
 
 // Up to four parts of one emitter, seen together: 4 rays each make one packet of 16.
 struct Verdict {
-  int hidden = 0, seen = 0;
   double kernel_seen = 0, kernel_all = 0;
 };
 
-void look(const Emitter& emitter, const Receiver& receiver, Tracer& tracer, std::span<const Part> parts,
-          std::array<Verdict, 4>& verdicts) {
+Sight look(const Emitter& emitter, const Receiver& receiver, Tracer& tracer, std::span<const Part> parts,
+           std::array<Verdict, 4>& verdicts) {
   std::array<Vec3, 16> targets;
   std::array<double, 16> weights;
   std::array<std::size_t, 16> owner;
@@ -57,12 +56,14 @@ void look(const Emitter& emitter, const Receiver& receiver, Tracer& tracer, std:
     }
   }
   tracer.blocked_from(receiver.lifted, std::span(targets.data(), count), blocked.data());
+  Sight sight;
   for (std::size_t k = 0; k < count; ++k) {
     Verdict& verdict = verdicts[owner[k]];
     verdict.kernel_all += weights[k];
     verdict.kernel_seen += blocked[k] ? 0 : weights[k];
-    (blocked[k] ? verdict.hidden : verdict.seen) += 1;
+    sight.add({blocked[k] == 0, blocked[k] != 0});
   }
+  return sight;
 }
 
 // Whether rays to sixteen points of the emitter are all blocked; points under the horizon do not count.
@@ -73,13 +74,8 @@ bool looks_dark(const Emitter& emitter, const Receiver& receiver, Tracer& tracer
     parts[count++] = {corners, 0, 1};
   }
   std::array<Verdict, 4> verdicts;
-  look(emitter, receiver, tracer, parts, verdicts);
-  int hidden = 0, seen = 0;
-  for (const Verdict& verdict : verdicts) {
-    hidden += verdict.hidden;
-    seen += verdict.seen;
-  }
-  return seen == 0 && hidden > 0;
+  const Sight sight = look(emitter, receiver, tracer, parts, verdicts);
+  return sight.hidden && !sight.open;
 }
 
 }  // namespace
@@ -116,18 +112,13 @@ Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tr
   // four rays agree too: a straight edge may cut off a corner between them, the same in all parts along it.
   const auto settle = [&](std::span<const Part> parts) {
     std::array<Verdict, 4> verdicts;
-    look(emitter, receiver, tracer, parts, verdicts);
-    int hidden = 0, seen = 0;
-    for (const Verdict& verdict : verdicts) {
-      hidden += verdict.hidden;
-      seen += verdict.seen;
-    }
-    sight.add({seen > 0, hidden > 0});
+    const Sight of_all = look(emitter, receiver, tracer, parts, verdicts);
+    sight.add(of_all);
     for (std::size_t p = 0; p < parts.size(); ++p) {
       const Verdict& verdict = verdicts[p];
-      if (hidden == 0 && seen > 0) {
+      if (of_all.open && !of_all.hidden) {
         visible += parts[p].form_factor;
-      } else if (seen == 0 && hidden > 0) {
+      } else if (of_all.hidden && !of_all.open) {
         continue;
       } else if (parts[p].form_factor > may_stay && parts[p].depth < k_max_depth) {
         stack[size++] = parts[p];
