@@ -3,6 +3,7 @@
 
 #include <chrono>
 
+#include "base/error.h"
 #include "radiosity/solver.h"
 
 namespace radvor {
@@ -19,6 +20,13 @@ double seconds_since(Clock::time_point begin) {
 
 struct Bake::State : Solver {
   using Solver::Solver;
+  bool broken = false;  // a step threw
+
+  void require_whole() const {
+    if (broken) {
+      throw Error(ErrorCode::out_of_memory, "the solution broke off when memory ran out: it can only be destroyed");
+    }
+  }
 };
 
 Bake::Bake(Scene scene, const BakeOptions& options, const VisibilityMaker& visibility, Host& host) {
@@ -38,13 +46,14 @@ Bake::~Bake() {
 }
 
 BakeStatus Bake::advance(double seconds, const ProgressCallback& callback) {
+  state_->require_whole();
   const Clock::time_point begin = Clock::now();
   const double before = state_->seconds;
   BakeStatus status = BakeStatus::converged;
   bool moved = false;  // every slice does a unit of work, however short it is: a sequence of them comes to its end
   while (state_->stage() != Solver::Stage::done) {
     const Clock::time_point unit = Clock::now();
-    const bool on_direct = state_->stage() < Solver::Stage::standouts;
+    const bool on_direct = !state_->looks_around();
     if (callback.call && callback.call(callback.user, progress())) {
       status = BakeStatus::cancelled;
       break;
@@ -55,7 +64,9 @@ BakeStatus Bake::advance(double seconds, const ProgressCallback& callback) {
       status = BakeStatus::time_spent;
       break;
     }
+    state_->broken = true;  // until the step is done
     state_->step();
+    state_->broken = false;
     moved = true;
     (on_direct ? state_->seconds_direct : state_->seconds_indirect) += seconds_since(unit);
     state_->seconds = before + seconds_since(begin);
@@ -76,6 +87,7 @@ const Facets& Bake::facets() const {
   return *state_->facets;
 }
 const Surface& Bake::surface() const {
+  state_->require_whole();
   return *state_->surface;
 }
 const BakeOptions& Bake::options() const {
@@ -85,9 +97,11 @@ Host& Bake::host() const {
   return state_->host;
 }
 std::span<const Color> Bake::direct() const {
+  state_->require_whole();
   return state_->direct;
 }
 std::span<const Color> Bake::indirect() const {
+  state_->require_whole();
   return state_->indirect;
 }
 
@@ -98,6 +112,7 @@ BakeProgress Bake::progress() const {
 }
 
 BakeStats Bake::stats() const {
+  state_->require_whole();
   return state_->stats();
 }
 

@@ -76,7 +76,8 @@ class Bake {
   Bake& operator=(const Bake&) = delete;
 
   /// Works until converged, cancelled, or `seconds` are spent (<= 0: no limit of this call's; options.max_seconds holds
-  /// over all calls). Any sequence of slices that converges gives the same bytes.
+  /// over all calls). Where it throws (std::bad_alloc) the bake is broken: from then on this and all that reads light
+  /// or surface throws Error. Any sequence of slices that converges gives the same bytes.
   BakeStatus advance(double seconds, const ProgressCallback& callback);
 
   const Scene& scene() const;

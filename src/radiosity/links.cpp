@@ -38,14 +38,13 @@ LinkMaker::LinkMaker(const ShootingTree& tree, const OccluderTree* occluders, co
       weights_(memory),
       blocked_(memory) {}
 
-void LinkMaker::make(const Receiver& receiver, std::span<const std::uint32_t> roots,
-                     std::span<const std::uint8_t> clear, Tracer& tracer, std::pmr::vector<Link>& links) {
+void LinkMaker::make(const Receiver& receiver, std::span<const std::uint32_t> roots, Tracer& tracer,
+                     std::pmr::vector<Link>& links) {
   links_ = &links;
   for (std::size_t i = 0; i < roots.size(); ++i) {
     if (roots[i] == k_none) {
       continue;
     }
-    clear_ = !clear.empty() && clear[i] != 0;
     pending_.push_back(roots[i]);
     open_pending(receiver, tracer);
     if (targets_.size() >= k_batch) {
@@ -65,7 +64,6 @@ void LinkMaker::open_pending(const Receiver& receiver, Tracer& tracer) {
 
 // Until no node waits for rays; those that are opened because theirs disagree make more.
 void LinkMaker::settle_all(const Receiver& receiver, Tracer& tracer) {
-  clear_ = false;
   while (!candidates_.empty()) {
     settle(receiver, tracer);
     open_pending(receiver, tracer);
@@ -115,11 +113,6 @@ void LinkMaker::open(std::uint32_t index, const Receiver& receiver, Tracer& trac
             : polygon_form_factor(x, n, tree_.polygon(tree_.elements()[node.first_element]), node.piece.normal);
   }
   if (form_factor <= 0) {
-    return;
-  }
-  if (clear_) {
-    ++tracer.counters.skipped_clear;
-    link(index, form_factor, receiver);
     return;
   }
   if (form_factor > accuracy_.clip_above) {

@@ -1,5 +1,5 @@
-// Links: what one receiver gets from each node that it opened, as form factor times visibility. Made once, read by
-// every bounce.
+// Links: what one receiver gets from each node that it opened, as form factor times visibility. Made for what shoots by
+// itself.
 #pragma once
 
 #include <cstdint>
@@ -45,9 +45,8 @@ class LinkMaker {
   LinkMaker(const ShootingTree& tree, const OccluderTree* occluders, const LinkAccuracy& accuracy,
             std::pmr::memory_resource* memory);
 
-  /// clear: for each root, whether nothing stands between it and the receiver for certain; or empty.
-  void make(const Receiver& receiver, std::span<const std::uint32_t> roots, std::span<const std::uint8_t> clear,
-            Tracer& tracer, std::pmr::vector<Link>& links);
+  void make(const Receiver& receiver, std::span<const std::uint32_t> roots, Tracer& tracer,
+            std::pmr::vector<Link>& links);
 
  private:
   struct Candidate {
@@ -68,7 +67,6 @@ class LinkMaker {
   const ShootingTree& tree_;
   const OccluderTree* occluders_;  ///< none: rays alone
   LinkAccuracy accuracy_;
-  bool clear_ = false;                       ///< of the root under way
   std::pmr::vector<Link>* links_ = nullptr;  ///< of the receiver under way
   std::pmr::vector<std::uint32_t> pending_;  ///< nodes to look at
   std::pmr::vector<Candidate> candidates_;   ///< nodes that wait for their rays

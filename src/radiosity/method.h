@@ -9,9 +9,9 @@ namespace radvor {
 
 inline constexpr double k_pi = 3.14159265358979323846;
 
-/// Rays of one hemisphere, over the tolerance, where all samples have the same area.
+/// Rays of one hemisphere, over the tolerance, where all samples have the same area; rounded up to a power of two.
 inline constexpr double k_rays = 4;
-inline constexpr double k_least_rays = 48, k_most_rays = 8192;
+inline constexpr double k_least_rays = 64, k_most_rays = 8192;
 
 /// Light from all around is taken over so far, times the root of the tolerance, relative to the distance of what is
 /// seen (Ward's a, but linear interpolation errs by its square).

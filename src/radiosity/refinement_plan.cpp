@@ -186,7 +186,7 @@ std::pmr::vector<std::uint32_t> plan_refinement(const Surface& surface, const Sa
   }
   std::pmr::vector<std::uint8_t> is_raised(surface.sites().size(), 0, memory);
   for (const EdgeError& error : errors) {
-    if (left <= area || raised.size() >= goal.sites_at_most) {
+    if (left <= area) {
       break;
     }
     left -= error.score;

@@ -20,10 +20,9 @@ struct SampledLight {
 };
 
 struct RefinementGoal {
-  double tolerance;           ///< of the area-weighted RMS, relative to mean_irradiance
-  double local_tolerance;     ///< the same, relative to each place's own light (plus a tenth of the mean)
-  double mean_irradiance;     ///< mean of the three channels, > 0
-  std::size_t sites_at_most;  ///< that may be raised
+  double tolerance;        ///< of the area-weighted RMS, relative to mean_irradiance
+  double local_tolerance;  ///< the same, relative to each place's own light (plus a tenth of the mean)
+  double mean_irradiance;  ///< mean of the three channels, > 0
 };
 
 /// An edge of the triangulation is as wrong as its ends' gradients fail to foresee its difference: a step between them

@@ -93,7 +93,7 @@ class FacetSmoother {
       }
       for (int channel = 0; channel < 3; ++channel) {
         const double own = values_[sample][channel];
-        if (std::abs(value[channel] - own) <= k_explained * certain_[sample].noise * own) {
+        if (std::abs(value[channel] - own) <= k_explained * certain_[sample].noise * std::max(own, value[channel])) {
           smoothed_[sample][channel] = std::max(0.0, value[channel]);
         }
       }

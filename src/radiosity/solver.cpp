@@ -29,6 +29,7 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
       sights_(&host.memory),
       anchors_(&host.memory),
       records_(&host.memory),
+      known_(&host.memory),
       outlooks_(&host.memory),
       first_bounce_(&host.memory),
       pending_(&host.memory),
@@ -71,6 +72,7 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
   visibility_.reset(maker.make(maker.user, {welded->positions, corners}, host));
   place_receivers();
   records_.assign(samples.size(), k_none);
+  known_.assign(samples.size(), 0);
   outlooks_.assign(samples.size(), Outlook{});
   first_bounce_.assign(samples.size(), Color(0.0));
   unprobed_.assign(samples.size(), 1);
@@ -180,8 +182,8 @@ void Solver::interpolate(std::span<const std::uint32_t> list, std::pmr::vector<C
 
 // Noise is settled, and where the triangulation is free its edges follow the light.
 void Solver::finish() {
-  stage_ = Stage::done;
   settle_noise();
+  stage_ = Stage::done;
   if ((options.disable & Disable::tie_alignment) != 0) {
     return;
   }
@@ -195,7 +197,7 @@ void Solver::finish() {
   stats_.realigned_ties = ties.realigned;
 }
 
-// Half of the way is direct light, a quarter the hemispheres; the rest is the logarithm of what is left.
+// Two fifths of the way are direct light, as many the hemispheres; the rest is the logarithm of what is left.
 void Solver::report_convergence() {
   double now = 0;
   const double part = static_cast<double>(block_) / std::max(1u, blocks_->count());

@@ -1,8 +1,9 @@
 // The state of a bake and the steps of its loop. Each step is a unit of work whose order is fixed, small enough for a
-// time slice.
+// time slice but for what plans and renumbers the mesh.
 //
-//   direct <-> refinement <-> probes -> (hemispheres -> refinement -> direct)* -> account -> standouts -> bounces ->
-//   finish
+//   direct -> refinement -> probes, again while they raise sites;
+//   hemispheres -> refinement -> probes, with direct before, again while they raise sites;
+//   account -> standouts -> bounces -> finish
 //
 // Light of sources that have a place or a direction is exact at every sample, and the mesh follows it, level by level.
 // Then samples look around for sky and the other surfaces. What comes from all around is smooth but near other
@@ -34,6 +35,8 @@ class Solver {
 
   enum class Stage { direct, refinement, probes, hemispheres, account, standouts, bounces, finish, done };
   Stage stage() const { return stage_; }
+  /// Light of sources with a place or a direction is done.
+  bool looks_around() const { return looking_; }
   void step();
 
   BakeStats stats() const;
@@ -61,6 +64,7 @@ class Solver {
   void begin_looking();
   void follow(std::span<const Share> before, std::span<const std::uint32_t> before_sites,
               std::span<const SampleOrigin> origins);
+  void keep_interpolated(std::span<const std::uint32_t> now);
   std::pmr::vector<std::uint32_t> shares_now(std::span<const Share> before, std::span<const std::uint32_t> before_sites,
                                              std::span<const std::uint32_t> now) const;
   void begin_level();
@@ -106,6 +110,7 @@ class Solver {
   std::pmr::vector<std::uint64_t> sights_;        // of each sample: what it sees of the sources
   std::pmr::vector<SampleOrigin> anchors_;        // of each sample that refinement made: the samples it lies between
   std::pmr::vector<std::uint32_t> records_;       // of each sample, in hemispheres_; k_none: takes it from its anchors
+  std::pmr::vector<std::uint8_t> known_;          // of each sample: whether its outlook is
   std::pmr::vector<Outlook> outlooks_;            // of each sample
   std::pmr::vector<Color> first_bounce_;          // irradiance of each sample, for the mesh to follow
   std::pmr::vector<std::uint32_t> pending_;       // samples whose light is under way

@@ -95,7 +95,7 @@ void Solver::shoot_standout() {
   over_blocks(0, blocks_->count(), [&](std::uint32_t sample, Tracer& tracer) {
     LinkMaker maker(tree, occluder_tree_ ? &*occluder_tree_ : nullptr, accuracy, &host.memory);
     std::pmr::vector<Link> links(&host.memory);
-    maker.make(receivers_[sample], tree.roots(), {}, tracer, links);
+    maker.make(receivers_[sample], tree.roots(), tracer, links);
     incoming_[sample] = Color(0.0);
     for (const Link& link : links) {
       incoming_[sample] += sent_along(link, light);
@@ -130,7 +130,8 @@ bool Solver::begin_bounce() {
   // What is left goes on as a geometric series; its ratio is that of the last two bounces.
   const double ratio = bounces_ > 0 && previous_unshot_ > 0 ? std::min(0.99, left / previous_unshot_) : 0.5;
   previous_unshot_ = left;
-  if (left <= 0 || left / (1 - ratio) <= k_share_left_unshot * options.tolerance * received ||
+  // So put that light which is not a number ends too.
+  if (!(left / (1 - ratio) > k_share_left_unshot * options.tolerance * received) ||
       (options.max_bounces != 0 && bounces_ >= options.max_bounces)) {
     return false;
   }

@@ -13,7 +13,8 @@ namespace radvor {
 
 namespace {
 
-constexpr double k_same_way = 0.95;  // cosine between normals of which one may take the other's light
+constexpr double k_least_weight = 1e-6;  // of an anchor that matters
+constexpr double k_same_way = 0.95;      // cosine between normals of which one may take the other's light
 
 }  // namespace
 
@@ -23,6 +24,7 @@ void Solver::begin_looking() {
   pending_.resize(direct.size());
   std::iota(pending_.begin(), pending_.end(), 0u);
   std::fill(unprobed_.begin(), unprobed_.end(), std::uint8_t{1});
+  known_.assign(direct.size(), 0);
   share_out_rays();
   stage_ = Stage::hemispheres;
 }
@@ -44,9 +46,10 @@ void Solver::begin_level() {
     bool looks = !lazy || anchor.samples[0] == k_none;
     for (std::size_t k = 0; !looks && k < 3; ++k) {
       const std::uint32_t other = anchor.samples[k];
-      if (anchor.weights[k] > 0) {
+      if (anchor.weights[k] > k_least_weight) {
+        looks = known_[other] == 0;
         const double nearness = outlooks_[other].inverse_distance;
-        looks = glm::distance(receivers_[i].point, receivers_[other].point) * nearness > most ||
+        looks = looks || glm::distance(receivers_[i].point, receivers_[other].point) * nearness > most ||
                 glm::dot(samples[i].normal, samples[other].normal) < k_same_way;
       }
     }
@@ -62,6 +65,7 @@ void Solver::begin_level() {
       own.backs += weight * other.backs;
       own.inverse_distance += weight * other.inverse_distance;
     }
+    known_[i] = 1;
     interpolated_.push_back(i);
     ++stats_.skipped_lazy;
   }
@@ -104,6 +108,7 @@ void Solver::look_around() {
     hemispheres_->trace(record, receivers_[sample], rays_for(surface->samples()[sample].area),
                         hash(options.seed, record), *surface, tracer);
     outlooks_[sample] = hemispheres_->outlook(record);
+    known_[sample] = 1;
   });
   block_ = end;
   if (block_ < blocks_->count()) {
@@ -120,6 +125,8 @@ void Solver::look_around() {
   }
   if ((options.disable & Disable::indirect) == 0) {
     see_first_bounce();
+  } else {
+    radiosity_.assign(surface->shares().size(), glm::vec3(0.0f));
   }
   stage_ = Stage::refinement;
 }

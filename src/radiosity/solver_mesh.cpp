@@ -33,8 +33,7 @@ void Solver::refine() {
   }
   if (options.spacing.refines && round_ < 2 * surface->max_level()) {
     const double mean = mean_of(light);
-    const RefinementGoal goal{k_share_of_mesh * options.tolerance, k_local * options.tolerance, mean,
-                              surface->sites().size()};
+    const RefinementGoal goal{k_share_of_mesh * options.tolerance, k_local * options.tolerance, mean};
     if (mean > 0 && raise(plan_refinement(*surface, {light, sights_}, goal, host))) {
       return;
     }
@@ -102,20 +101,40 @@ void Solver::follow(std::span<const Share> before, std::span<const std::uint32_t
   renumber(sights_, origins, std::uint64_t{0});
   renumber(records_, origins, k_none);
   renumber(outlooks_, origins, Outlook{});
+  renumber(known_, origins, std::uint8_t{0});
   renumber(first_bounce_, origins, Color(0.0));
+  keep_interpolated(now);
   renumber(unprobed_, origins, std::uint8_t{1});
-  std::size_t still = 0;
-  for (const std::uint32_t sample : interpolated_) {
-    if (now[sample] != k_none) {
-      interpolated_[still++] = now[sample];
-    }
-  }
-  interpolated_.resize(still);
   indirect.assign(origins.size(), Color(0.0));
 
   hemispheres_->renumber(shares_now(before, before_sites, now));
   place_receivers();
   blocks_.emplace(*surface, receivers_, pending_, host);
+}
+
+// Interpolated samples keep to their anchors. One that lost them, or became several where a facet was taken apart, is
+// as a new one.
+void Solver::keep_interpolated(std::span<const std::uint32_t> now) {
+  std::pmr::vector<std::uint8_t> kept(direct.size(), 0, &host.memory);
+  std::size_t still = 0;
+  for (const std::uint32_t before : interpolated_) {
+    const std::uint32_t sample = now[before];
+    if (sample != k_none && anchors_[sample].samples[0] != k_none) {
+      interpolated_[still++] = sample;
+      kept[sample] = 1;
+    }
+  }
+  interpolated_.resize(still);
+  for (std::uint32_t i = 0; looking_ && i < direct.size(); ++i) {
+    if (known_[i] != 0 && records_[i] == k_none && kept[i] == 0) {
+      known_[i] = 0;
+      direct[i] = first_bounce_[i] = Color(0.0);
+      sights_[i] = 0;
+      outlooks_[i] = Outlook{};
+      anchors_[i] = k_unanchored;
+      pending_.push_back(i);
+    }
+  }
 }
 
 // The number of each old share: the one of the same facet and side in its sample. Where a sample is no more (a facet

@@ -48,7 +48,13 @@ class Tracer {
 
   FirstHit first_hit(const Vec3& from, const Vec3& direction) {
     ++counters.rays;
-    return visibility_.first_hit(from, direction);
+    if (calls_++ % k_timed != 0) {
+      return visibility_.first_hit(from, direction);
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    const FirstHit hit = visibility_.first_hit(from, direction);
+    counters.ray_seconds += k_timed * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return hit;
   }
 
   double lift() const { return visibility_.lift(); }

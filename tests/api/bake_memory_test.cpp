@@ -60,6 +60,36 @@ TEST_F(BakeMemory, RefusedAtAnyBlockOfABake) {
   radvor_solution_destroy(solution);
 }
 
+TEST_F(BakeMemory, RefusedWhileAdvancingLeavesWhatCanOnlyBeDestroyed) {
+  const radvor_bake_options options = coarse();
+  std::vector<float> rgb(24);
+  int refusals = 0;
+  for (std::uint64_t n = 1;; n = after(n)) {
+    const std::size_t blocks = engine_.live_blocks();
+    radvor_solution* solution = nullptr;
+    ASSERT_EQ(radvor_solution_create(scene_, &options, &solution), RADVOR_OK) << engine_.error();
+    engine_.refuse_from(n);
+    const radvor_result result = radvor_solution_advance(solution, 0, nullptr);
+    engine_.refuse_from(0);
+    if (result != RADVOR_OK) {
+      ++refusals;
+      ASSERT_EQ(result, RADVOR_ERROR_OUT_OF_MEMORY) << n << ": " << engine_.error();
+      EXPECT_EQ(radvor_solution_advance(solution, 0, nullptr), RADVOR_ERROR_OUT_OF_MEMORY);
+      EXPECT_EQ(radvor_solution_vertices(solution, 0, RADVOR_IRRADIANCE, RADVOR_VERTEX_SAMPLE, rgb.data(), 0, 8),
+                RADVOR_ERROR_OUT_OF_MEMORY);
+      radvor_stats stats{};
+      stats.struct_size = sizeof stats;
+      EXPECT_EQ(radvor_solution_stats(solution, &stats), RADVOR_ERROR_OUT_OF_MEMORY);
+    }
+    radvor_solution_destroy(solution);
+    ASSERT_EQ(engine_.live_blocks(), blocks) << n;
+    if (result == RADVOR_OK) {
+      break;
+    }
+  }
+  EXPECT_GT(refusals, 20);
+}
+
 TEST_F(BakeMemory, RefusedAtAnyBlockOfReading) {
   const radvor_bake_options options = coarse();
   radvor_solution *solution = nullptr, *untroubled = nullptr;

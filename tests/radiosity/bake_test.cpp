@@ -53,7 +53,7 @@ void expect_furnace(SceneBuilder& builder, double rho) {
       where = samples[i].point;
     }
   }
-  EXPECT_LT(std::abs(worst), 0.005) << "at " << where.x << " " << where.y << " " << where.z << ", mean error " << mean;
+  EXPECT_LT(std::abs(worst), 0.001) << "at " << where.x << " " << where.y << " " << where.z << ", mean error " << mean;
   const BakeStats stats = bake->stats();
   std::printf("furnace rho %.1f: %zu samples, worst %+.5f mean %+.6f, %.2f s direct, %.2f s indirect, %.1f M rays\n",
               rho, samples.size(), worst, mean, stats.seconds_direct, stats.seconds_indirect,
@@ -163,7 +163,7 @@ TEST(Sky, OpenPlainSeesAllOfIt) {
   }
 }
 
-TEST(Energy, ClosesInAnOpenSceneWithEveryLight) {
+void expect_energy_closes(bool refines) {
   SceneBuilder builder;
   const std::uint32_t grey = builder.material(Color(0.6));
   builder.quad({-3, -3, 0}, {3, -3, 0}, {3, 3, 0}, {-3, 3, 0}, grey);
@@ -185,7 +185,9 @@ TEST(Energy, ClosesInAnOpenSceneWithEveryLight) {
   spot.inner_angle = 0.3;
   spot.outer_angle = 0.6;
   builder.scene.lights = {sun, sky, spot};
-  TestBake bake(builder.take(), coarse(0.01));
+  BakeOptions options = coarse(0.01);
+  options.spacing.refines = refines;
+  TestBake bake(builder.take(), options);
   bake.run();
   const BakeStats stats = bake->stats();
   const double end = stats.absorbed_power + stats.absorbed_back_power + stats.unshot_power + stats.escaped_power;
@@ -193,6 +195,11 @@ TEST(Energy, ClosesInAnOpenSceneWithEveryLight) {
       << stats.emitted_power << " = " << stats.absorbed_power << " + " << stats.absorbed_back_power << " + "
       << stats.unshot_power << " + " << stats.escaped_power;
   EXPECT_GT(stats.escaped_power, 0);
+}
+
+TEST(Energy, ClosesInAnOpenSceneWithEveryLight) {
+  expect_energy_closes(false);
+  expect_energy_closes(true);
 }
 
 Scene room_with_box_and_lamp(double scale = 1, const Transform& transform = k_identity) {
@@ -313,7 +320,37 @@ TEST(Standouts, FewBrightPatchesDoNotShootForEver) {
   BakeOptions options = coarse(0.2, 0.5);
   TestBake bake(builder.take(), options);
   EXPECT_EQ(bake.run(), BakeStatus::converged);
-  EXPECT_LT(bake->stats().rays, 10'000'000u);
+  EXPECT_LT(bake->stats().rays, 300'000u);  // 70,000; over a million where every patch shoots by itself
+}
+
+TEST(Disable, IndirectUnderASkyWithRefinement) {
+  // Found by a read: probes looked for light that was never shot.
+  SceneBuilder builder;
+  const std::uint32_t grey = builder.material(Color(0.6));
+  builder.quad({-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}, grey);
+  builder.box({-0.5, -0.5, 0}, {0.5, 0.5, 1}, false, grey);
+  Light sky;
+  sky.type = LightType::sky;
+  sky.color = Color(1.0);
+  builder.scene.lights = {sky};
+  BakeOptions options = coarse(0.05, 0.4);
+  options.spacing.element_levels = 0;
+  options.spacing.refines = true;
+  options.disable = Disable::indirect;
+  TestBake bake(builder.take(), options);
+  ASSERT_EQ(bake.run(), BakeStatus::converged);
+  for (std::size_t i = 0; i < (*bake).direct().size(); ++i) {
+    EXPECT_EQ((*bake).indirect()[i], Color(0.0));
+    EXPECT_LE((*bake).direct()[i].g, k_pi * (1 + 1e-9));
+  }
+}
+
+TEST(Overflow, LightThatIsNotANumberEnds) {
+  // Found by a read: with infinite radiosity and black albedo every comparison was false, and bounces went on for ever.
+  SceneBuilder builder;
+  builder.box({0, 0, 0}, {1, 1, 1}, true, builder.material(Color(0.0, 0.5, 0.9), Color(3e38)));
+  TestBake bake(builder.take(), coarse(0.1, 0.5));
+  EXPECT_EQ(bake.run(), BakeStatus::converged);
 }
 
 TEST(EmptyScene, ConvergesAtOnce) {
