@@ -45,7 +45,11 @@ class Divider {
       const double length = glm::distance(welded_.positions[whole.a], welded_.positions[whole.b]);
       for (; next < order_.size() && stops_[order_[next]].edge == e; ++next) {
         const auto& [edge, part, tolerance] = stops_[order_[next]];
-        if (from == whole.a || (part - from_part) * length > tolerance) {
+        if ((1 - part) * length <= tolerance) {
+          result_.vertices[order_[next]] = whole.b;
+          continue;
+        }
+        if ((part - from_part) * length > tolerance) {
           const std::uint32_t made = add_vertex(whole, part);
           add_piece(from, made, edges);
           from = made;

@@ -12,11 +12,12 @@
 
 namespace radvor {
 
-/// A vertex to be inside an edge, at a + part * (b - a); 0 < part < 1.
+/// A vertex to be inside an edge, at a + part * (b - a); 0 < part < 1. One that is no farther than the tolerance from
+/// an end of the edge is that end.
 struct EdgeStop {
   std::uint32_t edge;
   double part;
-  double tolerance;  ///< the next stop is the same vertex if it is no farther from it
+  double tolerance;  ///< of the edge; stops no farther apart are one vertex
 };
 
 /// Where things are after a division.

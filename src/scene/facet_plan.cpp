@@ -26,7 +26,7 @@ double distance_to_segment(const Vec2& point, const Vec2& a, const Vec2& b) {
 
 FacetPlan::FacetPlan(const WeldedScene& welded, const Facets& facets, std::uint32_t facet,
                      std::pmr::memory_resource* memory)
-    : triangles_(memory), outline_(memory) {
+    : welded_(welded), facets_(facets), triangles_(memory), outline_(memory) {
   const Frame& frame = facets.facets[facet].frame;
   std::pmr::vector<Box> boxes(memory);
   for (const std::uint32_t t : facets.triangles_of(facet)) {
@@ -93,6 +93,17 @@ void FacetPlan::clip(const Vec2& a, const Vec2& b, double slack, std::pmr::vecto
     }
   }
   inside.resize(count);
+}
+
+std::optional<double> FacetPlan::cut_by(std::uint32_t outline_edge, std::uint32_t facet, double least) const {
+  const Frame& frame = facets_.facets[facet].frame;
+  const auto height = [&](std::uint32_t vertex) { return dot(welded_.positions[vertex] - frame.origin, frame.normal); };
+  const double at_a = height(outline_[outline_edge].a);
+  const double at_b = height(outline_[outline_edge].b);
+  if ((at_a < 0) == (at_b < 0) || std::abs(at_a - at_b) <= least) {
+    return std::nullopt;
+  }
+  return at_a / (at_a - at_b);
 }
 
 bool FacetPlan::contains(const Vec2& point, double slack) const {

@@ -41,6 +41,11 @@ class FacetPlan {
 
   std::span<const PlanEdge> outline() const { return outline_; }
 
+  /// Where along an edge of the outline, 0 at its a, the plane of another facet cuts it: worked out in space, so that
+  /// all facets at the edge have the same answer, which in their own planes is apart where something is cut at a sharp
+  /// angle. Nothing where the edge's ends are on one side, or no farther apart than `least` as seen along the plane.
+  std::optional<double> cut_by(std::uint32_t outline_edge, std::uint32_t facet, double least) const;
+
   /// Calls visit(index into outline()) for all edges whose box, grown by `margin`, meets that of a-b, and perhaps for
   /// others.
   template <class Visit>
@@ -62,6 +67,8 @@ class FacetPlan {
                          [&](std::uint32_t i) { visit(triangles_[i]); });
   }
 
+  const WeldedScene& welded_;
+  const Facets& facets_;
   std::pmr::vector<Corners> triangles_;
   std::pmr::vector<PlanEdge> outline_;
   std::optional<BoxTree> triangle_tree_, edge_tree_;

@@ -23,7 +23,7 @@ constexpr std::size_t k_most_traces = 1 << 14;
 // What a facet's graph is made of, in the whole scene's terms.
 struct FacetGraph {
   std::uint32_t facet;
-  double tolerance, precision;
+  double precision;
   TraceGraph graph;
   std::pmr::vector<PlanEdge> outline;
 };
@@ -38,6 +38,7 @@ class ContactFinder {
         host_(host),
         memory_(&host.memory),
         casters_(memory_),
+        tolerances_(facets.facets.size(), 0.0, memory_),
         chunks_(memory_) {}
 
   void run() {
@@ -88,7 +89,7 @@ class ContactFinder {
     });
   }
 
-  void find_graph(std::uint32_t facet, std::pmr::vector<Trace>& traces, Chunk& chunk) const {
+  void find_graph(std::uint32_t facet, std::pmr::vector<Trace>& traces, Chunk& chunk) {
     Box box;
     for (const std::uint32_t t : facets_.triangles_of(facet)) {
       for (const std::uint32_t vertex : welded_.triangles[t].vertices) {
@@ -100,6 +101,7 @@ class ContactFinder {
     }
     const bool two_sided = scene_.materials[facets_.facets[facet].material].two_sided;
     const TracedPlane plane(welded_, facets_, facet, two_sided, limits_.reach);
+    tolerances_[facet] = plane.tolerance();
     collect_traces(plane, box, traces);
     if (traces.empty()) {
       return;
@@ -117,7 +119,7 @@ class ContactFinder {
     TraceGraph graph = arrange_traces(plan, traces, limits, memory_);
     if (!graph.points.empty()) {
       std::pmr::vector<PlanEdge> outline(plan.outline().begin(), plan.outline().end(), memory_);
-      chunk.graphs.push_back({facet, limits.tolerance, plane.precision(), std::move(graph), std::move(outline)});
+      chunk.graphs.push_back({facet, plane.precision(), std::move(graph), std::move(outline)});
     }
   }
 
@@ -144,7 +146,7 @@ class ContactFinder {
       const Vec2 along = trace.b - trace.a;
       for (const Stretch& stretch : inside) {
         if ((stretch.to - stretch.from) * length(along) > 2 * tolerance) {
-          clipped.push_back({trace.a + stretch.from * along, trace.a + stretch.to * along, trace.gap});
+          clipped.push_back({trace.a + stretch.from * along, trace.a + stretch.to * along, trace.gap, trace.facet});
         }
       }
     }
@@ -181,6 +183,16 @@ class ContactFinder {
     }
   }
 
+  // The largest of its facets: what one of them takes for the end of an edge must be so for the others.
+  double tolerance_at(std::uint32_t edge) const {
+    double tolerance = 0;
+    for (const std::uint32_t use : welded_.uses_at_edge(edge)) {
+      const std::uint32_t triangle = welded_.uses_by_triangle[use].triangle;
+      tolerance = std::max(tolerance, tolerances_[facets_.facet_of_triangle[triangle]]);
+    }
+    return tolerance;
+  }
+
   bool changes_edge(const FacetGraph& found, const CoveredStretch& stretch) const {
     return facets_.edge_kinds[found.outline[stretch.edge].edge] != EdgeKind::sharp;
   }
@@ -201,7 +213,8 @@ class ContactFinder {
       for (std::uint32_t p = 0; p < wanted.size(); ++p) {
         GraphPoint& point = found.graph.points[p];
         if (wanted[p] && point.edge != k_none) {
-          stops.push_back({found.outline[point.edge].edge, point.part, found.tolerance});
+          const std::uint32_t edge = found.outline[point.edge].edge;
+          stops.push_back({edge, point.part, tolerance_at(edge)});
           places.push_back(&point.vertex);
         }
       }
@@ -313,6 +326,7 @@ class ContactFinder {
   std::pmr::memory_resource* memory_;
   std::pmr::vector<std::uint32_t> casters_;  // triangles
   std::optional<BoxTree> tree_;              // of casters_
+  std::pmr::vector<double> tolerances_;      // of facets that may be traced on
   std::pmr::deque<Chunk> chunks_;
   std::optional<EdgeDivision> division_;
 };

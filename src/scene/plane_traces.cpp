@@ -67,7 +67,7 @@ void TracedPlane::trace(std::uint32_t index, std::pmr::vector<Trace>& traces) co
     return;
   }
   if (low < 0 && high > 0) {
-    trace_cut(corners, traces);
+    trace_cut(index, corners, traces);
   } else if (in_plane >= 2) {
     trace_edges(index, traces);
   }
@@ -77,7 +77,8 @@ void TracedPlane::trace(std::uint32_t index, std::pmr::vector<Trace>& traces) co
 }
 
 // From where one side of the triangle crosses the plane to where another does; a corner in the plane is such a place.
-void TracedPlane::trace_cut(const std::array<Corner, 3>& corners, std::pmr::vector<Trace>& traces) const {
+void TracedPlane::trace_cut(std::uint32_t triangle, const std::array<Corner, 3>& corners,
+                            std::pmr::vector<Trace>& traces) const {
   std::array<Vec2, 2> ends;
   std::size_t count = 0;
   for (std::size_t k = 0; k < 3 && count < 2; ++k) {
@@ -94,7 +95,7 @@ void TracedPlane::trace_cut(const std::array<Corner, 3>& corners, std::pmr::vect
     }
   }
   if (count == 2) {
-    traces.push_back({ends[0], ends[1], 0.0});
+    traces.push_back({ends[0], ends[1], 0.0, facets_.facet_of_triangle[triangle]});
   }
 }
 
@@ -103,7 +104,8 @@ void TracedPlane::trace_edges(std::uint32_t triangle, std::pmr::vector<Trace>& t
   for (const EdgeUse& use : welded_.uses_of_triangle(triangle)) {
     const Edge& edge = welded_.edges[use.edge];
     if (lies_in_plane(edge.a) && lies_in_plane(edge.b) && is_end_of_contact(use.edge)) {
-      traces.push_back({project(welded_.positions[edge.a]), project(welded_.positions[edge.b]), 0.0});
+      traces.push_back({project(welded_.positions[edge.a]), project(welded_.positions[edge.b]), 0.0,
+                        facets_.facet_of_triangle[triangle]});
     }
   }
 }
@@ -130,7 +132,7 @@ void TracedPlane::trace_near(std::uint32_t triangle, std::pmr::vector<Trace>& tr
     const double top = (reach_ - gap_a) / rise;  // where it leaves what is near
     const double begin = rise < 0 ? std::max(0.0, top) : 0.0;
     const double end = rise > 0 ? std::min(1.0, top) : 1.0;
-    traces.push_back({from + begin * along, from + end * along, gap_a + 0.5 * (begin + end) * rise});
+    traces.push_back({from + begin * along, from + end * along, gap_a + 0.5 * (begin + end) * rise, k_none});
   }
 }
 

@@ -14,7 +14,8 @@ namespace radvor {
 /// A segment in a facet's frame, not clipped to the facet and not snapped.
 struct Trace {
   Vec2 a, b;
-  double gap;  ///< 0: touches or cuts; else how high above the plane it is
+  double gap;           ///< 0: touches or cuts; else how high above the plane it is
+  std::uint32_t facet;  ///< that touches or cuts; k_none: it is near
 };
 
 /// A facet as what others leave traces on.
@@ -45,7 +46,7 @@ class TracedPlane {
     double height;
     int side;  ///< -1, 0, 1: below, in, above the plane
   };
-  void trace_cut(const std::array<Corner, 3>& corners, std::pmr::vector<Trace>& traces) const;
+  void trace_cut(std::uint32_t triangle, const std::array<Corner, 3>& corners, std::pmr::vector<Trace>& traces) const;
   void trace_edges(std::uint32_t triangle, std::pmr::vector<Trace>& traces) const;
   void trace_near(std::uint32_t triangle, std::pmr::vector<Trace>& traces) const;
   bool is_end_of_contact(std::uint32_t edge) const;

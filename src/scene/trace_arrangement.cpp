@@ -17,6 +17,9 @@ constexpr double k_on_trace = 1.25;
 // Pieces on the outline are gone when the rest is asked whether it is inside.
 constexpr double k_beside_outline = 0.25;
 
+// An edge that rises no more above a plane, in tolerances, may lie in it.
+constexpr double k_parallel = 4;
+
 // Of a trace beside the outline, in tolerances: down to angles of two degrees.
 constexpr double k_graze = 32;
 
@@ -26,6 +29,19 @@ Box box_around(const Vec2& a, const Vec2& b, double margin) {
   box.add(Vec3(glm::max(a, b) + margin, 0.0));
   return box;
 }
+
+// What is known best about where a point is comes first: it stands for those that are near.
+enum class Rank : std::uint8_t {
+  corner,      // of the outline
+  cut,         // of the outline by a plane, the same for all facets there
+  on_outline,  // where something ends near it
+  inside,
+};
+
+struct Candidate {
+  GraphPoint point;
+  Rank rank;
+};
 
 struct Nearest {
   double part, distance;
@@ -75,7 +91,9 @@ class Arranger {
                 });
       plan_.for_each_edge_near(trace.a, trace.b, limits_.tolerance, [&](std::uint32_t e) {
         const PlanEdge& edge = plan_.outline()[e];
-        add_crossing(trace, edge.from, edge.to);
+        if (!add_cut(trace, e)) {
+          add_crossing(trace, edge.from, edge.to);
+        }
         for (const Vec2& corner : {edge.from, edge.to}) {
           if (nearest_on(trace.a, trace.b, corner).distance <= limits_.tolerance) {
             add_candidate(corner);
@@ -96,9 +114,28 @@ class Arranger {
     }
   }
 
+  // Where the plane that left a trace cuts an edge of the outline; false where that is not on the trace.
+  bool add_cut(const Trace& trace, std::uint32_t e) {
+    if (trace.facet == k_none) {
+      return false;
+    }
+    const std::optional<double> part = plan_.cut_by(e, trace.facet, k_parallel * limits_.tolerance);
+    const PlanEdge& edge = plan_.outline()[e];
+    if (!part) {
+      return false;
+    }
+    const Vec2 point = edge.from + *part * (edge.to - edge.from);
+    if (nearest_on(trace.a, trace.b, point).distance > limits_.tolerance) {
+      return false;
+    }
+    add(point, {{point, k_none, e, *part}, Rank::cut});
+    return true;
+  }
+
+  void add_candidate(const Vec2& point) { add(point, {{point, k_none, k_none, 0}, Rank::inside}); }
+
   // As a corner of the outline where it is near one, else as a point of an edge of it, else by itself.
-  void add_candidate(const Vec2& point) {
-    GraphPoint found{point, k_none, k_none, 0};
+  void add(const Vec2& point, Candidate found) {
     double nearest_corner = limits_.tolerance;
     double nearest_edge = limits_.tolerance;
     plan_.for_each_edge_near(point, point, limits_.tolerance, [&](std::uint32_t e) {
@@ -107,13 +144,13 @@ class Arranger {
         const double distance = glm::distance(point, corner);
         if (distance <= nearest_corner) {
           nearest_corner = distance;
-          found = {corner, vertex, k_none, 0};
+          found = {{corner, vertex, k_none, 0}, Rank::corner};
         }
       }
       const Nearest on = nearest_on(edge.from, edge.to, point);
-      if (found.vertex == k_none && on.distance <= nearest_edge) {
+      if (found.rank >= Rank::on_outline && on.distance <= nearest_edge) {
         nearest_edge = on.distance;
-        found = {edge.from + on.part * (edge.to - edge.from), k_none, e, on.part};
+        found = {{edge.from + on.part * (edge.to - edge.from), k_none, e, on.part}, Rank::on_outline};
       }
     });
     candidates_.push_back(found);
@@ -125,7 +162,7 @@ class Arranger {
     const Vec2 direction(0.8480480961564261, 0.5299192642332049);
     std::pmr::vector<std::pair<double, std::uint32_t>> order(memory_);
     for (std::uint32_t i = 0; i < candidates_.size(); ++i) {
-      order.emplace_back(dot(candidates_[i].position, direction), i);
+      order.emplace_back(dot(candidates_[i].point.position, direction), i);
     }
     std::ranges::sort(order);
     DisjointSets sets(static_cast<std::uint32_t>(candidates_.size()), memory_);
@@ -134,23 +171,20 @@ class Arranger {
         ++first;
       }
       for (std::size_t j = first; j < i; ++j) {
-        if (glm::distance(candidates_[order[i].second].position, candidates_[order[j].second].position) <=
+        if (glm::distance(candidates_[order[i].second].point.position, candidates_[order[j].second].point.position) <=
             limits_.tolerance) {
           sets.unite(order[i].second, order[j].second);
         }
       }
     }
     std::pmr::vector<std::uint32_t> best(candidates_.size(), k_none, memory_);
-    const auto rank = [&](std::uint32_t i) {
-      return candidates_[i].vertex != k_none ? 0 : candidates_[i].edge != k_none ? 1 : 2;
-    };
     for (std::uint32_t i = 0; i < candidates_.size(); ++i) {
       std::uint32_t& leader = best[sets.find(i)];
-      leader = leader == k_none || rank(i) < rank(leader) ? i : leader;
+      leader = leader == k_none || candidates_[i].rank < candidates_[leader].rank ? i : leader;
     }
     for (const std::uint32_t leader : best) {
       if (leader != k_none) {
-        graph_.points.push_back(candidates_[leader]);
+        graph_.points.push_back(candidates_[leader].point);
       }
     }
   }
@@ -317,7 +351,7 @@ class Arranger {
   std::span<const Trace> traces_;
   ArrangementLimits limits_;
   std::pmr::memory_resource* memory_;
-  std::pmr::vector<GraphPoint> candidates_;
+  std::pmr::vector<Candidate> candidates_;
   TraceGraph graph_;
 };
 

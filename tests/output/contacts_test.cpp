@@ -11,6 +11,7 @@
 #include "output/adaptive_mesh.h"
 #include "output/lit_scene.h"
 #include "output/points.h"
+#include "support/random_numbers.h"
 
 namespace radvor::output_test {
 namespace {
@@ -102,18 +103,18 @@ TEST(ContactOutput, TheAdaptiveMeshHasBothValuesAlongAFootprint) {
   }
 }
 
+// Before cuts of edges were worked out in space, each facet at an edge had its own end of a cut, a few millionths from
+// the others': in one of six of these scenes a vertex lay inside an edge.
 TEST(ContactOutput, BoxesThroughBoxesStayClosed) {
-  std::mt19937 random(11);
-  std::uniform_real_distribution<float> place(0, 3);
-  std::uniform_real_distribution<float> size(0.4f, 2.5f);
   std::size_t contacts = 0;
-  for (int trial = 0; trial < 8; ++trial) {
+  for (int trial = 0; trial < 24; ++trial) {
+    test::RandomNumbers random(static_cast<std::uint64_t>(trial));
     std::vector<Mesh> boxes;
-    for (int k = 0; k < 4 + trial; ++k) {
-      const glm::vec3 low(place(random), place(random), place(random));
-      boxes.push_back(box(low, low + glm::vec3(size(random), size(random), size(random))));
+    for (int k = 0; k < 4 + trial % 8; ++k) {
+      const glm::vec3 low = random.vector_between(0, 3);
+      boxes.push_back(box(low, low + random.vector_between(0.4f, 2.5f)));
       if (k % 2 == 1) {
-        const double c = std::cos(size(random));
+        const double c = std::cos(random.between(0.4f, 2.5f));
         const double s = std::sqrt(1 - c * c);
         boxes.back().transform = {c, -s, 0, 1, 0.8 * s, 0.8 * c, -0.6, 1, 0.6 * s, 0.6 * c, 0.8, -1};
       }
@@ -130,7 +131,7 @@ TEST(ContactOutput, BoxesThroughBoxesStayClosed) {
       EXPECT_NEAR(mesh_checks::area(cut), mesh_checks::area(given), 1e-4);
     }
   }
-  EXPECT_GT(contacts, 200u);
+  EXPECT_GT(contacts, 600u);
 }
 
 }  // namespace

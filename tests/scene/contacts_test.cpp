@@ -15,6 +15,7 @@
 #include "scene/find_contacts.h"
 #include "scene/shape.h"
 #include "scene/shapes.h"
+#include "support/random_numbers.h"
 #include "support/test_host.h"
 
 namespace radvor {
@@ -359,15 +360,15 @@ TEST(Contacts, AShelfOfGlassAboveAFloorHasOneOutline) {
 
 SceneBuilder random_boxes(std::uint32_t seed, int count) {
   SceneBuilder builder(heap());
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<float> place(0, 8), size(0.3f, 3);
+  test::RandomNumbers random(seed);
   floor_of(builder, 10);
   for (int k = 0; k < count; ++k) {
     builder.mesh();
-    const glm::vec3 low(place(random), place(random), k % 3 == 0 ? 0.0f : place(random) - 4);
-    builder.box(low, low + glm::vec3(size(random), size(random), size(random)));
+    glm::vec3 low = random.vector_between(0, 8);
+    low.z = k % 3 == 0 ? 0.0f : low.z - 4;
+    builder.box(low, low + random.vector_between(0.3f, 3));
     if (k % 2 == 1) {  // turned about a slanted axis
-      const double angle = size(random);
+      const double angle = random.between(0.3f, 3);
       const double c = std::cos(angle), s = std::sin(angle);
       builder.scene.meshes.back().transform = {c,    -s, 0,       4 * (1 - c + s), 0.8 * s, 0.8 * c,
                                                -0.6, 1,  0.6 * s, 0.6 * c,         0.8,     -3};
@@ -419,6 +420,18 @@ TEST(Contacts, RandomBoxesThroughBoxesMakePlanarGraphs) {
     const Found found(builder.scene);
     EXPECT_GE(found.facets->contacts.edges.size(), 4u);
     expect_planar(found);
+  }
+}
+
+// The facets at an edge found where it is cut each in its own plane, millionths apart, and the edge got a vertex for
+// each.
+TEST(Contacts, AnEdgeHasOneVertexForAllItsFacetsWhereItIsCut) {
+  for (std::uint32_t seed = 0; seed < 40; ++seed) {
+    const SceneBuilder builder = random_boxes(seed, 12);
+    const Found found(builder.scene);
+    for (const Edge& edge : found.welded.edges) {
+      EXPECT_GT(glm::distance(found.welded.positions[edge.a], found.welded.positions[edge.b]), 5e-5) << "seed " << seed;
+    }
   }
 }
 
