@@ -6,13 +6,15 @@
 SCENE      folders of ../shared/scenes: scene.obj, lights.txt and reference.csv, the latter two where they exist [all]
 --direct   direct light alone, against reference-direct.csv
 --json     everything measured, and the statistics of each bake
---keep     what each bake wrote, and a picture: SCENE.csv, .json, .log, .png
+--keep     what each bake wrote, and a picture: SCENE.csv, .json, .log, .ply, .png
 --bake     the program [build/release/bin/radvor-bake]
+--torn-edges   the program [torn_edges beside radvor-bake]: are the meshes that come out whole?
 --shared   the folder that holds scenes/ [$RADVOR_SHARED_DIR, else ../shared]
 --         what follows goes to radvor-bake as it is
 
 The errors are those of compare.py, which lies beside the scenes. Fails where a bake crashes, takes more than ten minutes
-or 8 GiB, gives a value that is not finite, or misses a bound of k_bounds. Exits with 77 where the scenes are absent.
+or 8 GiB, gives a value that is not finite, misses a bound of k_bounds, or gives a mesh that is torn where the scene is
+not (a T-vertex, a gap). Exits with 77 where the scenes are absent.
 """
 import argparse
 import json
@@ -65,10 +67,13 @@ def parse_arguments():
     parser.add_argument("--json", type=pathlib.Path)
     parser.add_argument("--keep", type=pathlib.Path)
     parser.add_argument("--bake", type=pathlib.Path, default=k_root / "build/release/bin/radvor-bake")
+    parser.add_argument("--torn-edges", type=pathlib.Path)
     parser.add_argument(
         "--shared", type=pathlib.Path, default=os.environ.get("RADVOR_SHARED_DIR", k_root.parent / "shared")
     )
-    return parser.parse_args(own), bake
+    options = parser.parse_args(own)
+    options.torn_edges = options.torn_edges or options.bake.parent / "torn_edges"
+    return options, bake
 
 
 def run(command, log):
@@ -90,7 +95,8 @@ def bake(scene, options, bake_arguments, folder):
     """What was measured, and what is wrong (a list of words)."""
     name = scene.name
     points = scene / ("reference-direct.csv" if options.direct else "reference.csv")
-    command = [options.bake, scene / "scene.obj", "--stats", folder / f"{name}.json"]
+    mesh = folder / f"{name}.ply"
+    command = [options.bake, scene / "scene.obj", "--stats", folder / f"{name}.json", "-o", mesh]
     command += k_arguments.get(name, [])
     if (scene / "lights.txt").exists():
         command += ["--lights", scene / "lights.txt"]
@@ -121,6 +127,9 @@ def bake(scene, options, bake_arguments, folder):
             for figure, bound in k_bounds.get(name, {}).items():
                 if not options.direct and not bake_arguments and result["error"][figure] > bound:
                     wrong.append(f"{figure} {100 * result['error'][figure]:.2f} % is more than {100 * bound:g} %")
+    torn = subprocess.run([options.torn_edges, scene / "scene.obj", mesh], capture_output=True, text=True)
+    if torn.returncode != 0:
+        wrong.append((torn.stderr or torn.stdout).strip())
     if seconds > k_most_seconds:
         wrong.append(f"{seconds:.0f} s are more than {k_most_seconds} s")
     if max(resident, result["peak_bytes"]) > k_most_bytes:
@@ -144,8 +153,9 @@ def main():
     unknown = [name for name in names if not (scenes / name / "scene.obj").exists()]
     if unknown:
         sys.exit(f"no scene {', '.join(unknown)} at {scenes}")
-    if not options.bake.exists():
-        sys.exit(f"{options.bake} is not there: ./dev build")
+    for program in (options.bake, options.torn_edges):
+        if not program.exists():
+            sys.exit(f"{program} is not there: ./dev build")
 
     results, failed = {}, False
     with tempfile.TemporaryDirectory() as temporary:

@@ -11,6 +11,7 @@
 // comes out is the least set that satisfies them, whatever the order.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <deque>
@@ -89,6 +90,7 @@ class Refinement {
 
   bool is_lattice_facet(std::uint32_t facet) const;
   const FacetGround& ground(std::uint32_t facet);
+  double farthest() const { return 3 * spacing(0); }  ///< no clearance beyond is told
   double spacing(std::uint8_t level) const;
   std::int64_t step(std::uint8_t level) const { return std::int64_t{1} << (finest_ - level); }
   std::uint8_t coarsest(std::int64_t i, std::int64_t j) const;
@@ -110,5 +112,41 @@ class Refinement {
   std::pmr::vector<std::uint32_t> raised_;  // since the site at hand
   std::uint32_t first_new_;
 };
+
+template <class Function>
+void Refinement::for_each_edge(std::uint32_t site, Function&& function) const {
+  const Site at = parts_.sites[site];  // a copy: the function may add sites
+  if (at.edge != k_none) {
+    function(at.edge);
+  } else if (at.vertex != k_none) {
+    for (std::uint32_t k = first_edge_[at.vertex]; k < first_edge_[at.vertex + 1]; ++k) {
+      function(edges_[k]);
+    }
+  }
+}
+
+// Those that have the site, and a lattice; each once.
+template <class Function>
+void Refinement::for_each_facet(std::uint32_t site, Function&& function) {
+  if (parts_.places[site].facet != k_none) {
+    if (is_lattice_facet(parts_.places[site].facet)) {
+      function(parts_.places[site].facet);
+    }
+    return;
+  }
+  std::array<std::uint32_t, 64> known;  // corners where more meet may be told of a facet twice, which does no harm
+  std::size_t count = 0;
+  for_each_edge(site, [&](std::uint32_t edge) {
+    for (const std::uint32_t use : parts_.welded.uses_at_edge(edge)) {
+      const std::uint32_t facet = parts_.facets.facet_of_triangle[parts_.welded.uses_by_triangle[use].triangle];
+      if (std::find(known.begin(), known.begin() + count, facet) == known.begin() + count && is_lattice_facet(facet)) {
+        if (count < known.size()) {
+          known[count++] = facet;
+        }
+        function(facet);
+      }
+    }
+  });
+}
 
 }  // namespace radvor
