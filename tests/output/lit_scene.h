@@ -12,13 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/host.h"
 #include "output/lit_surface.h"
-#include "scene/facets.h"
-#include "scene/find_contacts.h"
-#include "scene/scene.h"
-#include "scene/welded.h"
-#include "support/plain_threads.h"
+#include "support/made_facets.h"
 #include "surface/spacing.h"
 #include "surface/surface.h"
 
@@ -123,12 +118,8 @@ using Light = std::function<Color(const Vec3& position, const Vec3& normal)>;
 class LitScene {
  public:
   LitScene(std::vector<Mesh> meshes, double patch_spacing, std::vector<Material> materials = {Material{}})
-      : host_{HostMemory(nullptr, nullptr, nullptr), Log(&LitScene::keep, &messages),
-              Jobs(2, nullptr, nullptr, heap())},
-        scene_(assemble(std::move(meshes), materials)),
-        welded_(weld(scene_, 0, host_)),
-        facets_(facets_of(scene_, welded_, options(patch_spacing), host_)),
-        surface_(scene_, welded_, facets_, options(patch_spacing), host_),
+      : made_(assemble(std::move(meshes), materials), 2, Log(&LitScene::keep, &messages)),
+        surface_(made_.scene, made_.welded, with_contacts(options(patch_spacing)), options(patch_spacing), made_.host),
         direct_(surface_.samples().size(), Color(0.0)),
         indirect_(direct_) {}
   LitScene(const LitScene&) = delete;
@@ -153,18 +144,16 @@ class LitScene {
     return *this;
   }
 
-  LitSurface lit() { return {surface_, direct_, indirect_, host_}; }
-  const Scene& scene() const { return scene_; }
-  const WeldedScene& welded() const { return welded_; }
-  const Facets& facets() const { return facets_; }
+  LitSurface lit() { return {surface_, direct_, indirect_, made_.host}; }
+  const Scene& scene() const { return made_.scene; }
+  const WeldedScene& welded() const { return made_.welded; }
+  const Facets& facets() const { return made_.facets; }
   const Surface& surface() const { return surface_; }
-  Host& host() { return host_; }
+  Host& host() { return made_.host; }
 
   std::vector<std::string> messages;  ///< what was logged
 
  private:
-  static constexpr double k_crease = 0.5235987755982988;
-
   static void keep(void* user, std::int32_t, const char* text) {
     static_cast<std::vector<std::string>*>(user)->emplace_back(text);
   }
@@ -178,10 +167,9 @@ class LitScene {
     return scene;
   }
 
-  static Facets facets_of(const Scene& scene, WeldedScene& welded, const SurfaceOptions& options, Host& host) {
-    Facets facets = find_facets(scene, welded, k_crease, host);
-    find_contacts(scene, welded, facets, ContactLimits::at_spacing(finest_spacing(options)), host);
-    return facets;
+  const Facets& with_contacts(const SurfaceOptions& options) {
+    made_.add_contacts(ContactLimits::at_spacing(finest_spacing(options)));
+    return made_.facets;
   }
 
   static SurfaceOptions options(double patch_spacing) {
@@ -192,10 +180,7 @@ class LitScene {
     return options;
   }
 
-  Host host_;
-  Scene scene_;
-  WeldedScene welded_;
-  Facets facets_;
+  test::MadeFacets made_;
   Surface surface_;
   std::vector<Color> direct_, indirect_;
 };

@@ -6,10 +6,10 @@
 
 namespace radvor::test {
 
-/// The C++ runtime's memory, no log, `threads` threads (1 to 3).
+/// The C++ runtime's memory, `threads` threads (1 to 3), no log unless given.
 struct TestHost : Host {
-  explicit TestHost(std::uint32_t threads = 2)
-      : Host{HostMemory(nullptr, nullptr, nullptr), Log(nullptr, nullptr),
+  explicit TestHost(std::uint32_t threads = 2, const Log& where = Log(nullptr, nullptr))
+      : Host{HostMemory(nullptr, nullptr, nullptr), where,
              Jobs(threads, plain_threads_wanted() ? plain(threads) : nullptr, nullptr, &memory)} {}
 
  private:

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "support/test_host.h"
+#include "support/made_facets.h"
 #include "surface/cut_triangles.h"
 #include "surface/solids.h"
 #include "surface/triangle_cells.h"
@@ -14,20 +14,14 @@
 namespace radvor {
 namespace {
 
-struct Prepared {
+struct Prepared : test::MadeFacets {
   Prepared(Scene given, double spacing)
-      : scene(std::move(given)),
-        welded(weld(scene, 0, host)),
-        facets(find_facets(scene, welded, std::numbers::pi / 6, host)),
+      : MadeFacets(std::move(given), 1),
         options{Lattice::hexagonal, spacing, 0, 0},
         borders(scene, welded, facets, options, &host.memory) {}
 
   FacetInput input(std::uint32_t facet) { return {scene, welded, facets, options, borders, &host.memory, facet}; }
 
-  test::TestHost host{1};
-  Scene scene;
-  WeldedScene welded;
-  Facets facets;
   SurfaceOptions options;
   BorderSites borders;
 };

@@ -12,43 +12,33 @@
 #include <utility>
 #include <vector>
 
-#include "scene/facets.h"
-#include "scene/find_contacts.h"
-#include "scene/scene.h"
-#include "scene/welded.h"
-#include "support/test_host.h"
+#include "support/made_facets.h"
 #include "surface/surface.h"
 
 namespace radvor::test {
 
 enum class Touching { ignored, found, however_small };
 
-struct MadeSurface {
-  MadeSurface(Scene given, const SurfaceOptions& options, std::uint32_t threads = 2,
-              Touching touching = Touching::found)
-      : host(threads),
-        scene(std::move(given)),
-        welded(weld(scene, 0, host)),
-        facets(facets_of(options, touching)),
-        surface(scene, welded, facets, options, host) {}
-
-  TestHost host;
-  Scene scene;
-  WeldedScene welded;
-  Facets facets;
-  Surface surface;
-
- private:
-  Facets facets_of(const SurfaceOptions& options, Touching touching) {
-    Facets found = find_facets(scene, welded, std::numbers::pi / 6, host);
+/// Facets as a surface of these options needs them.
+struct MadeFacetsInTouch : MadeFacets {
+  MadeFacetsInTouch(Scene given, const SurfaceOptions& options, std::uint32_t threads, Touching touching)
+      : MadeFacets(std::move(given), threads) {
     if (touching != Touching::ignored) {
       // The same however often it is refined.
       ContactLimits limits = ContactLimits::at_spacing(options.patch_spacing / 4);
       limits.least = touching == Touching::however_small ? 0 : limits.least;
-      find_contacts(scene, welded, found, limits, host);
+      add_contacts(limits);
     }
-    return found;
   }
+};
+
+struct MadeSurface : MadeFacetsInTouch {
+  MadeSurface(Scene given, const SurfaceOptions& options, std::uint32_t threads = 2,
+              Touching touching = Touching::found)
+      : MadeFacetsInTouch(std::move(given), options, threads, touching),
+        surface(scene, welded, facets, options, host) {}
+
+  Surface surface;
 };
 
 inline const Site& site_of(const Surface& surface, std::uint32_t share) {

@@ -9,7 +9,6 @@
 #include <map>
 
 #include "scene/audit.h"
-#include "scene/find_contacts.h"
 #include "scene/obj_scene.h"
 #include "surface/made_surface.h"
 #include "surface/spacing.h"
@@ -20,23 +19,22 @@ namespace {
 class RealScene : public testing::TestWithParam<const char*> {};
 
 TEST_P(RealScene, BecomesASurface) {
-  test::TestHost host(2);
-  const auto scene = test::real_scene(GetParam(), &host.memory);
+  auto scene = test::real_scene(GetParam(), std::pmr::get_default_resource());
   if (!scene) {
     GTEST_SKIP() << "no " << RADVOR_SHARED_DIR << "/scenes/" << GetParam();
   }
-  WeldedScene welded = weld(*scene, 0, host);
-  Facets facets = find_facets(*scene, welded, std::numbers::pi / 6, host);
-  const SurfaceOptions options = choose_spacing(*scene, welded, facets, {});
+  test::MadeFacets made(std::move(*scene));
+  auto& [host, given, welded, facets] = made;
+  const SurfaceOptions options = choose_spacing(given, welded, facets, {});
   const std::clock_t contacts_start = std::clock();
-  find_contacts(*scene, welded, facets, ContactLimits::at_spacing(finest_spacing(options)), host);
+  made.add_contacts(ContactLimits::at_spacing(finest_spacing(options)));
   const double contact_seconds = static_cast<double>(std::clock() - contacts_start) / CLOCKS_PER_SEC;
   EXPECT_LT(contact_seconds, 30) << "not in proportion to the size";  // at most 1 s in a release build
   EXPECT_EQ(test::audit(welded), "");
   EXPECT_EQ(test::audit(welded, facets), "");
   const std::uint64_t before = host.memory.live_bytes();
   const auto start = std::chrono::steady_clock::now();
-  const Surface surface(*scene, welded, facets, options, host);
+  const Surface surface(given, welded, facets, options, host);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::printf(
       "%s: %zu triangles, %zu facets, %zu contacts in %.3f s, spacing %.4g / 2^%u: %zu sites, %zu samples, %zu shares, "
@@ -123,18 +121,17 @@ std::vector<double> areas_of_facets(const Surface& surface, std::size_t facets) 
 
 // As along a shadow's edge: what a plane through the middle crosses is raised to the smallest spacing.
 TEST_P(RealScene, IsRefinedAlongAPlane) {
-  test::TestHost host(2);
-  const auto scene = test::real_scene(GetParam(), &host.memory);
+  auto scene = test::real_scene(GetParam(), std::pmr::get_default_resource());
   if (!scene) {
     GTEST_SKIP() << "no " << RADVOR_SHARED_DIR << "/scenes/" << GetParam();
   }
-  WeldedScene welded = weld(*scene, 0, host);
-  Facets facets = find_facets(*scene, welded, std::numbers::pi / 6, host);
+  test::MadeFacets made(std::move(*scene));
+  auto& [host, given, welded, facets] = made;
   SpacingRequest request;
   request.refines = true;
-  const SurfaceOptions options = choose_spacing(*scene, welded, facets, request);
-  find_contacts(*scene, welded, facets, ContactLimits::at_spacing(finest_spacing(options)), host);
-  Surface surface(*scene, welded, facets, options, host);
+  const SurfaceOptions options = choose_spacing(given, welded, facets, request);
+  made.add_contacts(ContactLimits::at_spacing(finest_spacing(options)));
+  Surface surface(given, welded, facets, options, host);
   const std::size_t before = surface.sites().size();
   const std::vector<double> areas_before = areas_of_facets(surface, facets.facets.size());
   EXPECT_EQ(torn_edges(surface, welded, facets.facets.size()), 0u);

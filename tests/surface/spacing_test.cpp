@@ -5,26 +5,21 @@
 
 #include <numbers>
 
-#include "support/test_host.h"
+#include "support/made_facets.h"
 #include "surface/lattice.h"
 #include "surface/solids.h"
 
 namespace radvor {
 namespace {
 
-struct Room {
-  Room() : scene(make()), welded(weld(scene, 0, host)), facets(find_facets(scene, welded, 0.5, host)) {}
+struct Room : test::MadeFacets {
+  Room() : MadeFacets(make()) {}
   static Scene make() {
     test::SceneBuilder builder(std::pmr::get_default_resource());
     builder.box({0, 0, 0}, {4, 4, 3}, true);  // 80 square units, 44 of edges
     return builder.take();
   }
   SurfaceOptions choose(const SpacingRequest& request) const { return choose_spacing(scene, welded, facets, request); }
-
-  test::TestHost host;
-  Scene scene;
-  WeldedScene welded;
-  Facets facets;
 };
 
 TEST(Spacing, GivesThirtyPatchesOverTheTolerance) {
