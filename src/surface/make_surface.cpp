@@ -10,6 +10,7 @@
 #include "surface/receiver_point.h"
 #include "surface/sample_origins.h"
 #include "surface/shading.h"
+#include "surface/spaced_points.h"
 #include "surface/triangle_cells.h"
 
 namespace radvor {
@@ -95,13 +96,10 @@ class SurfaceMaker {
       }
       const FacetGround ground(
           {parts_.scene, parts_.welded, parts_.facets, parts_.options, parts_.borders, parts_.memory, facet});
+      SpacedPoints apart(clear, parts_.memory);
       for (; next < found.size() && found[next].facet == facet; ++next) {
         const Vec2& position = found[next].position;
-        bool is_clear = ground.encloses(position) && ground.clearance(position, 2 * clear) >= clear;
-        for (std::size_t k = parts_.first_given[facet]; k < parts_.given.size(); ++k) {
-          is_clear = is_clear && glm::distance(parts_.given[k].position, position) >= clear;
-        }
-        if (is_clear) {
+        if (ground.encloses(position) && ground.clearance(position, 2 * clear) >= clear && apart.add(position)) {
           parts_.given.push_back({position, static_cast<std::uint32_t>(parts_.sites.size()), true, false});
           parts_.sites.emplace_back().position = parts_.facets.facets[facet].frame.to_world(position);
           parts_.places.resize(parts_.sites.size());
