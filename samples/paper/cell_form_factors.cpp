@@ -17,6 +17,7 @@ std::vector<glm::dvec3> unit_cell(int sides) {
   const double step = 2 * k_pi / sides;
   const double radius = std::sqrt(2 / (sides * std::sin(step)));
   std::vector<glm::dvec3> corners;
+  corners.reserve(static_cast<std::size_t>(sides));
   for (int i = 0; i < sides; ++i) {
     corners.emplace_back(radius * std::cos(step * i), radius * std::sin(step * i), 0);
   }
@@ -62,6 +63,7 @@ std::vector<glm::dvec3> receivers_above() {
   constexpr int k_receivers = 100;
   std::mt19937_64 random(7);
   std::vector<glm::dvec3> receivers;
+  receivers.reserve(k_receivers);
   for (int i = 0; i < k_receivers; ++i) {
     receivers.push_back(random_point(random) * glm::dvec3(1, 1, 0.4) + glm::dvec3(0, 0, 0.1));
   }
@@ -92,6 +94,7 @@ Gathered gather(const Experiment& experiment, const std::vector<glm::dvec2>& sit
     const double radiosity = experiment.irradiance(sites[site]);
     const std::vector<glm::dvec2> cell = diagram.cell(site);
     std::vector<glm::dvec3> corners;
+    corners.reserve(cell.size());
     for (const glm::dvec2& corner : cell) {
       corners.emplace_back(corner, 0);
     }

@@ -17,6 +17,7 @@ double orientation(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c
 
 std::vector<glm::dvec3> lifted(const std::vector<glm::dvec2>& polygon, double height) {
   std::vector<glm::dvec3> corners;
+  corners.reserve(polygon.size());
   for (const glm::dvec2& corner : polygon) {
     corners.emplace_back(corner, height);
   }

@@ -20,6 +20,7 @@ std::vector<glm::vec3> in_scene(std::vector<glm::dvec2> polygon, double height, 
     std::reverse(polygon.begin(), polygon.end());
   }
   std::vector<glm::vec3> corners;
+  corners.reserve(polygon.size());
   for (const glm::dvec2& corner : polygon) {
     corners.push_back(in_scene(corner, height));
   }

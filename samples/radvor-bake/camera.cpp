@@ -144,7 +144,8 @@ Camera find_camera(const SceneData& scene, double aspect) {
   Camera best;
   double most = -1;
   for (const double elevation : {0.0, 12.0, 25.0, 40.0, 60.0}) {
-    for (double azimuth = 0; azimuth < 360; azimuth += 15) {
+    for (int turn = 0; turn < 24; ++turn) {
+      const double azimuth = 15.0 * turn;
       const double level = std::cos(elevation * k_degree);
       const glm::dvec3 direction(level * std::sin(azimuth * k_degree), std::sin(elevation * k_degree),
                                  level * std::cos(azimuth * k_degree));

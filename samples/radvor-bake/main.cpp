@@ -51,6 +51,7 @@ void write_meshes(const Options& options, const SceneData& scene, BakedScene& ba
   }
   if (!options.preview.empty()) {
     std::vector<DrawnMesh> drawn;
+    drawn.reserve(meshes.size());
     for (const BakedMesh& mesh : meshes) {
       drawn.push_back({mesh.mesh.positions, mesh.mesh.radiance, mesh.mesh.indices, mesh.mesh.triangle_count});
     }

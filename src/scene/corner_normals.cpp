@@ -116,15 +116,16 @@ void smooth_normals(const Scene& scene, const WeldedScene& welded, Facets& facet
       continue;
     }
     const std::uint32_t t[2] = {welded.uses_by_triangle[uses[0]].triangle, welded.uses_by_triangle[uses[1]].triangle};
+    const std::size_t first[2] = {std::size_t{3} * t[0], std::size_t{3} * t[1]};
     for (const std::uint32_t vertex : {welded.edges[e].a, welded.edges[e].b}) {
       const std::size_t corner[2] = {corner_at(welded.triangles[t[0]], vertex),
                                      corner_at(welded.triangles[t[1]], vertex)};
       if (corner[0] < 3 && corner[1] < 3) {
-        sets.unite(static_cast<std::uint32_t>(3 * t[0] + corner[0]), static_cast<std::uint32_t>(3 * t[1] + corner[1]));
+        sets.unite(static_cast<std::uint32_t>(first[0] + corner[0]), static_cast<std::uint32_t>(first[1] + corner[1]));
       }
       for (int i = 0; i < 2; ++i) {
         if (corner[i] < 3 && corner[1 - i] == 3) {
-          sums[3 * t[i] + corner[i]] += 0.5 * std::numbers::pi * normal_of(t[1 - i]);
+          sums[first[i] + corner[i]] += 0.5 * std::numbers::pi * normal_of(t[1 - i]);
         }
       }
     }

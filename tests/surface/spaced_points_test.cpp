@@ -1,4 +1,4 @@
-// Points that keep their distance, against all pairs; given sites by the hundred thousand took minutes that way.
+// Points that keep their distance, against all pairs, as given sites were once tested: in time that grew with the square.
 #include "surface/spaced_points.h"
 
 #include <gtest/gtest.h>
