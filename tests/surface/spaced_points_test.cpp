@@ -1,4 +1,5 @@
-// Points that keep their distance, against all pairs, as given sites were once tested: in time that grew with the square.
+// Points that keep their distance, against all pairs, as given sites were once tested: in time that grew with the
+// square.
 #include "surface/spaced_points.h"
 
 #include <gtest/gtest.h>
