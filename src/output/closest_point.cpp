@@ -31,9 +31,10 @@ ClosestPoints::ClosestPoints(std::span<const Vec3> positions, std::span<const st
 
 bool ClosestPoints::candidate(std::uint32_t triangle, const Vec3& position, const Vec3& direction,
                               Candidate& result) const {
-  const Vec3& a = positions_[corners_[3 * triangle]];
-  const Vec3& b = positions_[corners_[3 * triangle + 1]];
-  const Vec3& c = positions_[corners_[3 * triangle + 2]];
+  const std::size_t first = std::size_t{3} * triangle;
+  const Vec3& a = positions_[corners_[first]];
+  const Vec3& b = positions_[corners_[first + 1]];
+  const Vec3& c = positions_[corners_[first + 2]];
   const Vec3 normal = cross(b - a, c - a);
   const double alignment = dot(normal, direction);
   const bool back = alignment < 0;

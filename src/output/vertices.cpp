@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <compare>
 #include <cstddef>
 #include <cstring>
 #include <memory_resource>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -35,7 +35,7 @@ class CornerLight {
         }
       }
     }
-    std::ranges::sort(at_vertices_);
+    std::ranges::sort(at_vertices_, {}, [](const AtVertex& at) { return std::tuple(at.vertex, at.sample, at.share); });
     const auto same_light = [](const AtVertex& one, const AtVertex& other) {
       return one.vertex == other.vertex && one.sample == other.sample;  // shares of one sample show the same light
     };
@@ -69,7 +69,6 @@ class CornerLight {
  private:
   struct AtVertex {
     std::uint32_t vertex, sample, share;
-    auto operator<=>(const AtVertex&) const = default;
   };
 
   std::uint32_t vertex_of(std::uint32_t share) const {
