@@ -1,5 +1,7 @@
 // The full check of a triangulation: that the records are a triangulated sphere, that its real part is planar and
 // convex, and that every edge has a reason. It throws what is wrong first.
+#include <cmath>
+
 #include "base/error.h"
 #include "delaunay/triangulation.h"
 
@@ -20,6 +22,7 @@ class Audit {
       }
     }
     check_stars();
+    require(d_.flat_ == !real_, "what is flat has triangles, or the other way round", 0);
     if (d_.vertex_count_ >= 2) {
       check_hull();
     }
@@ -52,6 +55,13 @@ class Audit {
     const std::uint32_t expected = d_.vertex_count_ < 2 ? 0 : 2 * d_.vertex_count_ - 2;
     require(live == expected, "Euler's formula does not hold: triangles", live);
     require(!m_.in_transaction(), "a transaction is open", 0);
+    TriangleId free = m_.first_free();
+    std::uint32_t free_count = 0;
+    for (; free != k_none && free_count <= m_.record_count(); ++free_count) {
+      require(free < m_.record_count() && m_.is_free(free), "a triangle is listed as free", free);
+      free = m_.triangle(free).vertex[0];
+    }
+    require(free_count + live == m_.record_count(), "free triangle records are lost", free_count);
   }
 
   void check_vertices() const {
@@ -61,6 +71,7 @@ class Audit {
         continue;
       }
       ++count;
+      check_position(v);
       const HalfEdge h = m_.out(v);
       require((h == k_none) == (d_.vertex_count_ == 1), "a vertex has lost its star", v);
       if (h != k_none) {
@@ -83,6 +94,19 @@ class Audit {
     require(free_count + count == d_.vertex_bound(), "free vertices are lost", free_count);
   }
 
+  // In range, and on the lattice that the predicates' shortcuts count on.
+  void check_position(VertexId v) const {
+    for (int axis = 0; axis < 2; ++axis) {
+      const double at = d_.positions_[v][axis], magnitude = std::fabs(at);
+      require(at == 0 || (magnitude >= k_least_coordinate && magnitude <= k_greatest_coordinate),
+              "a coordinate is out of range", v);
+    }
+    Lattice lattice = d_.lattice_;
+    lattice.include(d_.positions_[v]);
+    require(lattice.per_unit() == d_.lattice_.per_unit(), "a vertex is not on the lattice", v);
+    require(!std::isinf(d_.value(v)), "a value is infinite", v);
+  }
+
   void check_links(TriangleId t) const {
     const auto& v = m_.triangle(t).vertex;
     require(v[0] != v[1] && v[1] != v[2] && v[2] != v[0], "a triangle has a corner twice", t);
@@ -98,14 +122,15 @@ class Audit {
     }
   }
 
-  void check_shape(TriangleId t) const {
+  void check_shape(TriangleId t) {
     const auto& v = m_.triangle(t).vertex;
+    require(m_.state(t) == 0 || (d_.marked_ && m_.state(t) == Triangle::k_outside), "a triangle's state is unknown", t);
     if (m_.is_ghost(t)) {
       const int infinite = (v[0] == k_infinite) + (v[1] == k_infinite) + (v[2] == k_infinite);
       require(infinite == 1, "a ghost has more than one infinite corner", t);
       require(!d_.marked_ || (m_.state(t) & Triangle::k_outside), "a ghost is inside of the domain", t);
     } else {
-      require(!d_.flat_, "a real triangle among collinear vertices", t);
+      real_ = true;
       require(side(v[0], v[1], v[2]) > 0, "a triangle is not counter-clockwise", t);
     }
   }
@@ -115,7 +140,12 @@ class Audit {
       const HalfEdge h = half_edge(t, corner);
       if (m_.origin(h) == k_infinite || m_.target(h) == k_infinite) {
         require(m_.constraint(h) == 0, "an edge to infinity is a constraint", t);
+      } else {
+        require(d_.positions_[m_.origin(h)] != d_.positions_[m_.target(h)], "two vertices are at one place", h);
       }
+      require(m_.constraint(h) == 0 || d_.constrained_, "a constraint that nobody knows of", h);
+      require(m_.constraint(h) == 0 || (m_.constraint(h) & constraint::k_blocking) != 0 || d_.seamed_,
+              "a continuous constraint that nobody knows of", h);
       if (m_.state(t) != m_.state(triangle_of(m_.twin(h)))) {
         require((m_.constraint(h) & constraint::k_border) != 0, "the domain ends where no border is", t);
       }
@@ -182,6 +212,7 @@ class Audit {
   const Triangulation& d_;
   const Mesh& m_;
   bool ties_ = false;
+  bool real_ = false;
 };
 
 void Triangulation::validate() const {

@@ -16,7 +16,6 @@ void Triangulation::insert_many(std::span<const Vec2> points, VertexId* vertices
   for (const Vec2 point : points) {
     check(point);
   }
-  changed_.clear();
   if (points.empty()) {
     return;
   }
@@ -39,6 +38,7 @@ void Triangulation::insert_many(std::span<const Vec2> points, VertexId* vertices
   }
   try {
     work();
+    changed_.clear();
     make_hints();
   } catch (...) {
     mesh_.clear();

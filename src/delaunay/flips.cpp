@@ -1,5 +1,5 @@
 // Edge flips: which edges are not locally Delaunay, and Lawson's way to make them so.
-#include "delaunay/triangulation.h"
+#include "delaunay/conflict.h"
 
 namespace radvor::delaunay {
 

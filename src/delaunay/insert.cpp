@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "delaunay/conflict.h"
 #include "delaunay/transaction.h"
 #include "delaunay/triangulation.h"
 
@@ -38,7 +39,6 @@ VertexId Triangulation::insert(Vec2 point, VertexId hint) {
   check(point);
   reserve_one();
   lattice_.include(point);
-  changed_.clear();
   Location location;
   if (vertex_count_ >= 2) {
     location = locate_from(point, start_near(point, hint), lattice_);
@@ -46,6 +46,7 @@ VertexId Triangulation::insert(Vec2 point, VertexId hint) {
     location = locate(point);
   }
   if (location.where == Where::vertex) {
+    changed_.clear();
     last_ = location.vertices[0];
     return last_;
   }
@@ -63,6 +64,9 @@ VertexId Triangulation::insert_new(Vec2 point, const Location& location) {
     prepare(point, location);
   }
   changed_.reserve(changed_.size() + cavity_.border_size + 3);
+  if (!mesh_.in_transaction()) {
+    changed_.clear();  // the report before: from here on nothing fails
+  }
   const VertexId p = add_vertex(point);
   if (other != k_none) {
     start_chain(other, p);
@@ -156,33 +160,6 @@ void Triangulation::report_star(VertexId vertex) {
   for_each_neighbour(vertex, [&](VertexId neighbour) { changed_.push_back(neighbour); });
 }
 
-// Does the triangle lose against the point? entry: its edge towards the cavity, with the point beyond it. A ghost does
-// where the point is strictly beyond its hull edge, or within that edge. On the circle exactly the rule is that of a
-// circle test on points lifted to the paraboloid whose lexicographically least one is lowered a little: every
-// cocircular polygon becomes the fan of its least vertex, in whatever order its points come.
-inline bool Triangulation::loses(HalfEdge entry, Vec2 point, const Lattice& lattice) const {
-  const Triangle& record = mesh_.triangle(triangle_of(entry));
-  const std::uint32_t corner = corner_of(entry);
-  const VertexId a = record.vertex[corner];
-  const VertexId b = record.vertex[corner == 2 ? 0 : corner + 1];
-  const VertexId c = record.vertex[corner == 0 ? 2 : corner - 1];
-  if (a == k_infinite || b == k_infinite || c == k_infinite) [[unlikely]] {
-    const Vec2 from = positions_[a == k_infinite ? b : b == k_infinite ? c : a];
-    const Vec2 to = positions_[a == k_infinite ? c : b == k_infinite ? a : b];
-    const int side = orientation(from, to, point, lattice);
-    return side > 0 || (side == 0 && lexicographically_less(from, point) == lexicographically_less(point, to));
-  }
-  const int side = in_circle(positions_[a], positions_[b], positions_[c], point, lattice);
-  if (side != 0) [[likely]] {
-    return side > 0;
-  }
-  return wins_tie(positions_[a], positions_[b], positions_[c], point);
-}
-
-bool Triangulation::conflicts(HalfEdge entry, Vec2 point, const Lattice& lattice) const {
-  return loses(entry, point, lattice);
-}
-
 // Depth first with the edges in order, so that the border of the cavity comes out counter-clockwise. No vertex is
 // inside of a cavity: its triangles form a tree and need no marks; n of them have a border of n + 2 edges, and at most
 // as many wait.
@@ -201,7 +178,7 @@ void Triangulation::collect_cavity(Vec2 point, TriangleId start, HalfEdge crosse
   const bool marked = marked_;
   while (waiting > 0) {
     const HalfEdge h = slots[--waiting].stacked;
-    if ((mesh_.constraint(h) == 0 || h == crossed) && loses(h, point, lattice)) {
+    if ((mesh_.constraint(h) == 0 || h == crossed) && conflicts(h, point, lattice)) {
       if (triangle_count == room) [[unlikely]] {
         cavity.grow();
         slots = cavity.slots.data();

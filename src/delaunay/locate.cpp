@@ -30,6 +30,9 @@ Location Triangulation::locate(Vec2 point, VertexId* hint) const {
     if (location.where == Where::outside && location.edge != k_none) {
       *hint = origin(location.edge) != k_infinite ? origin(location.edge) : target(location.edge);
     }
+    if (*hint != k_none) {
+      mesh_.prefetch_out(*hint);
+    }
   }
   return location;
 }
@@ -89,12 +92,19 @@ Location Triangulation::locate_from(Vec2 point, HalfEdge start, const Lattice& l
   // Without constraints a visibility walk cannot go round in circles.
   const auto most_steps =
       constrained_ ? static_cast<std::uint64_t>(64 + 8 * std::sqrt(static_cast<double>(vertex_count_))) : UINT64_MAX;
+  // Positions wait for memory: those that the next step may ask for are fetched while this one decides.
+  const auto look_ahead = [&](HalfEdge beyond) {
+    const VertexId v = apex(beyond);
+    __builtin_prefetch(positions_.data() + (v == k_infinite ? 0 : v));
+  };
   bool right_first = true;  // the side taken last comes first: around a vertex that is one question a triangle
   for (std::uint64_t step = 0; step < most_steps; ++step) {
     const VertexId c = apex(h);
     if (c == k_infinite) {
       return describe(Where::outside, h);
     }
+    look_ahead(twin(next(h)));
+    look_ahead(twin(previous(h)));
     const Vec2 at_c = positions_[c];
     const auto side_of_right = [&] { return orientation(positions_[target(h)], at_c, point, lattice); };
     const auto side_of_left = [&] { return orientation(at_c, positions_[origin(h)], point, lattice); };

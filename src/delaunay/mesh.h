@@ -77,10 +77,12 @@ class Mesh {
   }
 
   std::uint32_t record_count() const { return static_cast<std::uint32_t>(triangles_.size()); }
+  TriangleId first_free() const { return free_; }  ///< and so on in their vertex[0]; k_none after the last
   std::uint32_t live_count() const { return record_count() - free_count_; }  ///< triangles, ghosts included
 
   /// A half-edge out of the vertex, k_none where it has none (a single vertex).
   HalfEdge out(VertexId v) const { return outs_[v]; }
+  void prefetch_out(VertexId v) const { __builtin_prefetch(&outs_[v]); }
   std::uint32_t vertex_capacity() const { return static_cast<std::uint32_t>(outs_.size()); }
 
   // ---- Room: after these the surgery below allocates nothing (outside of a transaction)

@@ -36,7 +36,7 @@ namespace {
 
 struct Offset {
   Expansion<2> x, y;
-  Offset(Vec2 a, Vec2 b)
+  Offset(const Vec2& a, const Vec2& b)
       : x(expansion::make(expansion::two_difference(a.x, b.x))),
         y(expansion::make(expansion::two_difference(a.y, b.y))) {}
 };
@@ -53,15 +53,15 @@ Expansion<512> lifted(const Offset& a, const Expansion<16>& minor) {
 
 }  // namespace
 
-int orientation(Vec2 a, Vec2 b, Vec2 c) {
+int orientation(const Vec2& a, const Vec2& b, const Vec2& c) {
   return cross(Offset(a, c), Offset(b, c)).sign();
 }
 
-double twice_area(Vec2 a, Vec2 b, Vec2 c) {
+double twice_area(const Vec2& a, const Vec2& b, const Vec2& c) {
   return cross(Offset(a, c), Offset(b, c)).estimate();
 }
 
-int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+int in_circle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const Offset ad(a, d), bd(b, d), cd(c, d);
   return expansion::sum(expansion::sum(lifted(ad, cross(bd, cd)), lifted(bd, cross(cd, ad))), lifted(cd, cross(ad, bd)))
       .sign();
@@ -73,7 +73,7 @@ namespace detail {
 
 using namespace expansion;
 
-int orientation_far(Vec2 a, Vec2 b, Vec2 c) {
+int orientation_far(const Vec2& a, const Vec2& b, const Vec2& c) {
   const Two acx = two_difference(a.x, c.x), acy = two_difference(a.y, c.y);
   const Two bcx = two_difference(b.x, c.x), bcy = two_difference(b.y, c.y);
   if (acx.low == 0 && acy.low == 0 && bcx.low == 0 && bcy.low == 0) {
@@ -111,7 +111,7 @@ int in_circle_on_lattice(const double (&offsets)[6]) {
 
 }  // namespace
 
-int in_circle_far(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice) {
+int in_circle_far(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d, const Lattice& lattice) {
   constexpr double k_most_units = 0x1p30;  // a difference of that few units is exact
   const double scale = lattice.per_unit();
   const double offsets[6] = {(a.x - d.x) * scale, (a.y - d.y) * scale, (b.x - d.x) * scale,

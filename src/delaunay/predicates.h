@@ -42,19 +42,19 @@ class Lattice {
 
 namespace exact {
 /// The same signs without filter. For tests, and for where filters fail.
-int orientation(Vec2 a, Vec2 b, Vec2 c);
-int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d);
+int orientation(const Vec2& a, const Vec2& b, const Vec2& c);
+int in_circle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d);
 /// The determinant of orientation, correct but for a few roundings.
-double twice_area(Vec2 a, Vec2 b, Vec2 c);
+double twice_area(const Vec2& a, const Vec2& b, const Vec2& c);
 }  // namespace exact
 
 namespace detail {
-int orientation_far(Vec2 a, Vec2 b, Vec2 c);
-int in_circle_far(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice);
+int orientation_far(const Vec2& a, const Vec2& b, const Vec2& c);
+int in_circle_far(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d, const Lattice& lattice);
 }  // namespace detail
 
 /// > 0: a, b, c turn left; 0: collinear; < 0: right.
-inline int orientation(Vec2 a, Vec2 b, Vec2 c, const Lattice& lattice) {
+inline int orientation(const Vec2& a, const Vec2& b, const Vec2& c, const Lattice& lattice) {
   const double left = (a.x - c.x) * (b.y - c.y);
   const double right = (a.y - c.y) * (b.x - c.x);
   const double determinant = left - right;
@@ -67,7 +67,7 @@ inline int orientation(Vec2 a, Vec2 b, Vec2 c, const Lattice& lattice) {
 }
 
 /// a, b, c counter-clockwise. > 0: d is strictly inside of their circle; 0: on it; < 0: outside.
-inline int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice) {
+inline int in_circle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d, const Lattice& lattice) {
   const double adx = a.x - d.x, ady = a.y - d.y;
   const double bdx = b.x - d.x, bdy = b.y - d.y;
   const double cdx = c.x - d.x, cdy = c.y - d.y;
@@ -89,13 +89,13 @@ inline int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice) {
 }
 
 /// Order of the canonical choice: by x, then y.
-inline bool lexicographically_less(Vec2 a, Vec2 b) {
+inline bool lexicographically_less(const Vec2& a, const Vec2& b) {
   return a.x < b.x || (a.x == b.x && a.y < b.y);
 }
 
 /// Four points on one circle in the order a, d, b, c: is d taken for inside of it? The lexicographically least of the
 /// four counts as lowered below the paraboloid they are lifted to.
-inline bool wins_tie(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+inline bool wins_tie(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const Vec2 inner = lexicographically_less(c, d) ? c : d;
   return lexicographically_less(inner, a) && lexicographically_less(inner, b);
 }

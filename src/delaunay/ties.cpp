@@ -80,6 +80,9 @@ std::uint32_t Triangulation::realign(std::span<const VertexId> vertices) {
     require_vertex(v);
   }
   std::uint32_t count = 0;
+  if (vertices.empty()) {
+    return count;
+  }
   if (!steered_) {
     changed_.clear();
     return count;

@@ -5,7 +5,7 @@
 
 namespace radvor::delaunay {
 
-/// Runs edit(); what it throws leaves the triangulation as it was.
+/// Runs edit(); what it throws leaves the triangulation as it was, the report of the edit before included.
 template <class Edit>
 void Triangulation::transact(Edit&& edit) {
   const std::size_t bound = positions_.size();
@@ -13,6 +13,7 @@ void Triangulation::transact(Edit&& edit) {
   const VertexId last = last_;
   const bool flat = flat_;
   const bool marked = marked_;
+  changed_before_.swap(changed_);
   changed_.clear();
   reused_.clear();
   mesh_.begin();
@@ -38,7 +39,7 @@ void Triangulation::transact(Edit&& edit) {
     last_ = last;
     flat_ = flat;
     marked_ = marked;
-    changed_.clear();
+    changed_.swap(changed_before_);
     throw;
   }
   mesh_.commit();

@@ -18,6 +18,7 @@ Triangulation::Triangulation(std::pmr::memory_resource* memory)
       hints_(memory),
       reused_(memory),
       changed_(memory),
+      changed_before_(memory),
       reports_(memory),
       stack_(memory),
       cavity_(memory) {}
@@ -143,14 +144,6 @@ void Triangulation::make_report_unique() {
   std::erase_if(changed_, [&](VertexId v) {
     return std::exchange(reports_[v], report_number_) == report_number_ || !is_vertex(v);
   });
-}
-
-std::array<double, 3> Triangulation::barycentric(TriangleId t, Vec2 point) const {
-  const auto& v = mesh_.triangle(t).vertex;
-  const Vec2 a = positions_[v[0]] - point, b = positions_[v[1]] - point, c = positions_[v[2]] - point;
-  const double weight_a = cross(b, c), weight_b = cross(c, a), weight_c = cross(a, b);
-  const double sum = weight_a + weight_b + weight_c;
-  return {weight_a / sum, weight_b / sum, weight_c / sum};
 }
 
 }  // namespace radvor::delaunay

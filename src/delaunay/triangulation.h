@@ -57,14 +57,15 @@ class Triangulation {
   VertexId insert(Vec2 point, VertexId hint);
 
   /// All or nothing, in a spatial order of its own; the triangulation is that of inserting one by one in any order.
-  /// New vertices get ids in input order. vertices: count ids, or NULL. Does not fill changed().
+  /// New vertices get ids in input order. vertices: count ids, or NULL.
   void insert_many(std::span<const Vec2> points, VertexId* vertices);
 
   /// Removes a vertex and its constraint edges; two collinear ones with the same flags become one again.
   void remove(VertexId vertex);
 
   /// The vertices whose stars (or constraint flags) the last insert, remove, constrain, unconstrain, split or realign
-  /// changed, each once, in no particular order, without the removed one.
+  /// that succeeded changed, each once, in no particular order, without the removed one; none after insert_many. Calls
+  /// that fail, or are given no points or vertices, leave it as it was.
   std::span<const VertexId> changed() const { return changed_; }
 
   std::uint32_t vertex_count() const { return vertex_count_; }
@@ -242,7 +243,10 @@ class Triangulation {
   void place(VertexId p, const Location& location);
   void collect_cavity(Vec2 point, TriangleId start, HalfEdge crossed, const Lattice& lattice, Cavity& cavity) const;
   void fill_cavity(VertexId p);
-  bool loses(HalfEdge entry, Vec2 point, const Lattice& lattice) const;
+  // interpolate.cpp
+  double linear_in(TriangleId t, Vec2 point) const;
+
+  // conflict.h
   bool conflicts(HalfEdge entry, Vec2 point, const Lattice& lattice) const;
 
   // chain.cpp
@@ -327,7 +331,8 @@ class Triangulation {
 
   // Scratch that insertions keep.
   std::pmr::vector<VertexId> changed_;
-  std::pmr::vector<std::uint32_t> reports_;  // of each vertex: the last long report it was in
+  std::pmr::vector<VertexId> changed_before_;  // by the edit before the open transaction
+  std::pmr::vector<std::uint32_t> reports_;    // of each vertex: the last long report it was in
   std::uint32_t report_number_ = 0;
   std::pmr::vector<HalfEdge> stack_;
   Cavity cavity_;

@@ -197,52 +197,5 @@ TEST(ties, cut_by_a_constraint_are_resolved_on_either_side) {
   EXPECT_EQ(canonical_triangles(d), before);
 }
 
-TEST(interpolation, natural_neighbours_reproduce_linear_functions) {
-  for (const auto& set : testing::point_sets()) {
-    if (std::string(set.name) == "huge_and_tiny" || std::string(set.name).starts_with("collinear") ||
-        std::string(set.name) == "nearly_collinear") {
-      continue;
-    }
-    Triangulation d(std::pmr::new_delete_resource());
-    d.insert_many(set.make(300, 2), nullptr);
-    give_values(d, [](Vec2 p) { return 3 + 2 * p.x - 5 * p.y; });
-    std::mt19937_64 random(7);
-    int inside = 0;
-    for (int i = 0; i < 300; ++i) {
-      const auto a = static_cast<VertexId>(random() % d.vertex_bound()),
-                 b = static_cast<VertexId>(random() % d.vertex_bound()),
-                 c = static_cast<VertexId>(random() % d.vertex_bound());
-      const Vec2 p = 0.4 * d.position(a) + 0.35 * d.position(b) + 0.25 * d.position(c);
-      const Location at = d.locate(p);
-      if (at.where != Where::triangle) {
-        continue;
-      }
-      const auto weights = d.barycentric(triangle_of(at.edge), p);
-      if (*std::min_element(weights.begin(), weights.end()) < 1e-3) {
-        continue;  // a needle's circumcentres are as ill-conditioned as they look
-      }
-      ++inside;
-      const double expected = 3 + 2 * p.x - 5 * p.y;
-      const double scale = 10 + std::fabs(2 * p.x) + std::fabs(5 * p.y);
-      EXPECT_NEAR(d.interpolate_linear(p), expected, 1e-11 * scale) << set.name;
-      EXPECT_NEAR(d.interpolate_natural(p), expected, 1e-8 * scale) << set.name;
-    }
-    EXPECT_GT(inside, 20) << set.name;
-  }
-}
-
-TEST(interpolation, natural_neighbours_of_a_square_and_unset_values) {
-  Triangulation d(std::pmr::new_delete_resource());
-  for (const Vec2 p : {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)}) {
-    d.insert(p);
-  }
-  EXPECT_TRUE(std::isnan(d.interpolate_natural({0.5, 0.5})));
-  d.set_values(std::array{1.0, 0.0, 0.0, 0.0}, 0);
-  EXPECT_DOUBLE_EQ(d.interpolate_natural({0.5, 0.5}), 0.25);
-  EXPECT_DOUBLE_EQ(d.interpolate_natural({0.25, 0}), 0.75);
-  EXPECT_DOUBLE_EQ(d.interpolate_natural({0, 0}), 1);
-  EXPECT_TRUE(std::isnan(d.interpolate_natural({2, 0.5})));
-}
-
 }  // namespace
 }  // namespace radvor::delaunay
