@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "delaunay/cell_polygon.h"
 #include "delaunay/id_map.h"
 #include "delaunay/seamless_view.h"
 #include "delaunay/triangulation.h"
@@ -42,17 +43,9 @@ class CellBuffer {
  private:
   friend class CellBuilder;
 
-  /// A side of the polygon in the making: on the bisector between the site and another one, on an edge or the ray to a
-  /// neighbour, or on the caller's window.
-  struct Side {
-    enum class Kind : std::uint8_t { bisector, line, window } kind;
-    VertexId a, b;  ///< bisector: the other site; line: the polygon is left of a -> b; window: from corner a to b
-    Vec2 end;       ///< where it meets the next side, counter-clockwise
-  };
-
   std::pmr::vector<Sector> sectors_;
   std::pmr::vector<Vec2> points_;
-  std::pmr::vector<Side> sides_, clipped_;
+  CellPolygon polygon_;
   std::pmr::vector<HalfEdge> stack_;
   IdMap visited_;
   SeamlessView view_;
