@@ -14,12 +14,15 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <ctime>
-#include <functional>
-#include <new>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "delaunay/measure.h"
+#include "delaunay/points.h"
+
+using namespace radvor::bench;
 
 namespace {
 
@@ -33,8 +36,6 @@ using ConstrainedData = CGAL::Triangulation_data_structure_2<CGAL::Triangulation
                                                              CGAL::Constrained_triangulation_face_base_2<Kernel>>;
 using Constrained =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, ConstrainedData, CGAL::No_constraint_intersection_tag>;
-
-using Points = std::vector<double>;  // x, y, x, y ...
 
 // ---- Our side
 
@@ -73,83 +74,6 @@ class Ours {
   radvor_delaunay* handle_ = nullptr;
 };
 
-// ---- Points
-
-Points uniform(std::size_t count, unsigned seed) {
-  std::mt19937_64 random(seed);
-  std::uniform_real_distribution<double> unit(0, 1);
-  Points xy(2 * count);
-  for (double& c : xy) {
-    c = unit(random);
-  }
-  return xy;
-}
-
-void shuffle_points(Points& xy, unsigned seed) {
-  std::mt19937_64 random(seed);
-  for (std::size_t i = xy.size() / 2; i > 1; --i) {
-    const std::size_t j = random() % i;
-    std::swap(xy[2 * i - 2], xy[2 * j]);
-    std::swap(xy[2 * i - 1], xy[2 * j + 1]);
-  }
-}
-
-Points grid(std::size_t side, double jitter_least, double jitter_most) {
-  std::mt19937_64 random(3);
-  std::uniform_real_distribution<double> unit(-1, 1);
-  Points xy;
-  for (std::size_t i = 0; i < side; ++i) {
-    for (std::size_t j = 0; j < side; ++j) {
-      const double size =
-          jitter_most > 0 ? jitter_least * std::pow(jitter_most / jitter_least, std::fabs(unit(random))) : 0;
-      xy.push_back(static_cast<double>(i) + size * unit(random));
-      xy.push_back(static_cast<double>(j) + size * unit(random));
-    }
-  }
-  shuffle_points(xy, 4);
-  return xy;
-}
-
-Points circle(std::size_t count) {
-  std::mt19937_64 random(5);
-  std::uniform_real_distribution<double> angle(0, 2 * M_PI);
-  Points xy;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double a = angle(random);
-    xy.push_back(std::cos(a));
-    xy.push_back(std::sin(a));
-  }
-  return xy;
-}
-
-Points clusters(std::size_t count) {
-  std::mt19937_64 random(6);
-  std::uniform_real_distribution<double> unit(0, 1);
-  std::normal_distribution<double> normal;
-  Points xy;
-  while (xy.size() < 2 * count) {
-    const double x = unit(random), y = unit(random), size = std::pow(10, -8 + 6 * unit(random));
-    for (int i = 0; i < 1000; ++i) {
-      xy.push_back(x + size * normal(random));
-      xy.push_back(y + size * normal(random));
-    }
-  }
-  shuffle_points(xy, 7);
-  return xy;
-}
-
-Points line(std::size_t count, bool exact) {
-  std::mt19937_64 random(8);
-  std::uniform_real_distribution<double> unit(0, 1);
-  Points xy;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double t = exact ? static_cast<double>(random() % (1u << 30)) : unit(random);
-    xy.push_back(t);
-    xy.push_back(exact ? 3 * t + 7 : t / 3);
-  }
-  return xy;
-}
-
 std::vector<Point> as_cgal(const Points& xy) {
   std::vector<Point> points;
   for (std::size_t i = 0; i < xy.size(); i += 2) {
@@ -165,57 +89,6 @@ Points as_ours(const std::vector<Point>& points) {
     xy.push_back(p.y());
   }
   return xy;
-}
-
-// ---- Measuring
-
-// Of this thread on a processor: both sides run on one, and other programs of the machine do not count.
-double processor_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-double seconds_of(const std::function<void()>& run) {
-  const double start = processor_seconds();
-  run();
-  return processor_seconds() - start;
-}
-
-double median(std::vector<double> v) {
-  std::sort(v.begin(), v.end());
-  return v[v.size() / 2];
-}
-
-struct Row {
-  std::string name;
-  double ours, cgal;  // ns
-  double target;
-};
-std::vector<Row> g_rows;
-int g_rounds = 5;
-std::string g_filter;
-
-bool wanted(const char* name) {
-  return g_filter.empty() || std::strstr(name, g_filter.c_str());
-}
-
-// Each side: seconds of the part that counts.
-void compare(const char* name, double target, std::size_t count, const std::function<double()>& ours,
-             const std::function<double()>& cgal) {
-  std::vector<double> a, b;
-  for (int round = 0; round < g_rounds; ++round) {
-    a.push_back(ours());
-    if (cgal) {
-      b.push_back(cgal());
-    }
-  }
-  const double scale = 1e9 / static_cast<double>(count);
-  const Row row{name, median(a) * scale, cgal ? median(b) * scale : NAN, target};
-  g_rows.push_back(row);
-  std::printf("%-44s %9.0f %9.0f   %5.2f  (at most %.2f)%s\n", name, row.ours, row.cgal, row.ours / row.cgal, target,
-              row.ours / row.cgal > target ? "  <-- missed" : "");
-  std::fflush(stdout);
 }
 
 void bulk(const char* name, double target, const Points& xy) {
@@ -460,53 +333,6 @@ void constrained(const char* name, double target, const Points& xy, std::size_t 
       });
 }
 
-Points with_short_segments(std::size_t count, std::size_t side) {
-  std::mt19937_64 random(19);
-  std::uniform_real_distribution<double> unit(0, 1);
-  Points xy;
-  for (std::size_t i = 0; i < side * side; ++i) {
-    for (int end = 0; end < 2; ++end) {
-      xy.push_back((static_cast<double>(i % side) + 0.1 + 0.8 * unit(random)) / static_cast<double>(side));
-      xy.push_back((static_cast<double>(i / side) + 0.1 + 0.8 * unit(random)) / static_cast<double>(side));
-    }
-  }
-  const Points more = uniform(count - 2 * side * side, 20);
-  xy.insert(xy.end(), more.begin(), more.end());
-  return xy;
-}
-
-Points with_long_segments(std::size_t count, std::size_t segments) {
-  std::mt19937_64 random(21);
-  std::uniform_real_distribution<double> unit(0, 1);
-  Points xy;
-  for (std::size_t i = 0; i < segments; ++i) {
-    for (const double x : {0.01, 0.99}) {
-      xy.push_back(x);
-      xy.push_back((static_cast<double>(i) + 0.2 + 0.6 * unit(random)) / static_cast<double>(segments));
-    }
-  }
-  const Points more = uniform(count - 2 * segments, 22);
-  xy.insert(xy.end(), more.begin(), more.end());
-  return xy;
-}
-
-void write_json(const char* path, double bytes_a_point) {
-  std::FILE* file = std::fopen(path, "w");
-  if (!file) {
-    std::perror(path);
-    std::exit(1);
-  }
-  std::fprintf(file, "{\n  \"bytes_a_point\": %.1f,\n  \"rounds\": %d,\n  \"rows\": [\n", bytes_a_point, g_rounds);
-  for (std::size_t i = 0; i < g_rows.size(); ++i) {
-    const Row& row = g_rows[i];
-    std::fprintf(
-        file, "    {\"name\": \"%s\", \"ours_ns\": %.1f, \"cgal_ns\": %.1f, \"ratio\": %.4f, \"target\": %.2f}%s\n",
-        row.name.c_str(), row.ours, row.cgal, row.ours / row.cgal, row.target, i + 1 < g_rows.size() ? "," : "");
-  }
-  std::fprintf(file, "  ]\n}\n");
-  std::fclose(file);
-}
-
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -516,9 +342,9 @@ int main(int count, char** arguments) {
     if (argument.starts_with("--benchmark_out=")) {
       out = arguments[i] + std::strlen("--benchmark_out=");
     } else if (argument.starts_with("--rounds=")) {
-      g_rounds = std::atoi(arguments[i] + std::strlen("--rounds="));
+      g_choice.rounds = std::atoi(arguments[i] + std::strlen("--rounds="));
     } else if (argument.starts_with("--filter=")) {
-      g_filter = argument.substr(std::strlen("--filter="));
+      g_choice.filter = argument.substr(std::strlen("--filter="));
     }
   }
   Memory memory;
@@ -548,14 +374,15 @@ int main(int count, char** arguments) {
   constrained("10^5 with 10^4 short constraints", 0.85, with_short_segments(100000, 100), 10000);
   constrained("10^5 with 300 long constraints", 1.0, with_long_segments(100000, 300), 300);
 
-  const std::size_t before = memory.live;
-  memory.peak = memory.live;
-  {
-    Ours d;
+  double bytes = 0;
+  if (wanted("memory, 10^6 uniform")) {
+    const std::size_t before = memory.live;
+    memory.peak = before;
+    const Ours d;
     must(radvor_delaunay_insert_many(d, million.data(), 1000000, nullptr));
+    bytes = static_cast<double>(memory.peak - before) / 1e6;
+    std::printf("%-44s %9.1f bytes a point at peak (at most 110)\n", "memory, 10^6 uniform", bytes);
   }
-  const double bytes = static_cast<double>(memory.peak - before) / 1e6;
-  std::printf("%-44s %9.1f bytes a point at peak (at most 110)\n", "memory, 10^6 uniform", bytes);
   if (out) {
     write_json(out, bytes);
   }
