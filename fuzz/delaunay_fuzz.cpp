@@ -60,6 +60,21 @@ struct Program {
   }
 };
 
+// All integer points of the circle x^2 + y^2 = 1105^2: a tie polygon of more corners than are resolved exactly.
+constexpr std::uint32_t k_most_at_once = 108;
+
+void point_of_great_circle(std::uint32_t index, double (&xy)[2]) {
+  static const int k_quarter[][2] = {
+      {1105, 0},  {1104, 47}, {1100, 105}, {1092, 169}, {1073, 264}, {1071, 272}, {1020, 425}, {1001, 468}, {975, 520},
+      {952, 561}, {943, 576}, {884, 663},  {855, 700},  {817, 744},  {744, 817},  {700, 855},  {663, 884},  {576, 943},
+      {561, 952}, {520, 975}, {468, 1001}, {425, 1020}, {272, 1071}, {264, 1073}, {169, 1092}, {105, 1100}, {47, 1104}};
+  const auto& at = k_quarter[index % 27];
+  const double x = at[0], y = at[1];
+  const double turned[4][2] = {{x, y}, {-y, x}, {-x, -y}, {y, -x}};
+  xy[0] = turned[index / 27][0];
+  xy[1] = turned[index / 27][1];
+}
+
 // What the programs reach, printed at the end where RADVOR_FUZZ_COUNTERS is set.
 struct Counters {
   unsigned long long runs = 0, inserted = 0, removed = 0, constrained = 0, refused = 0, crossed = 0, freed = 0,
@@ -145,8 +160,8 @@ State state_of(const radvor_delaunay* d) {
   };
   for (std::uint32_t i = 0; i < count; ++i) {
     std::uint32_t flags = 0;
-    must(radvor_delaunay_constraint(d, pairs[2 * i], pairs[2 * i + 1], &flags), "constraint");
-    state.constraints.push_back({rank(pairs[2 * i]), rank(pairs[2 * i + 1]), flags});
+    must(radvor_delaunay_constraint(d, pairs[2 * std::size_t{i}], pairs[2 * std::size_t{i} + 1], &flags), "constraint");
+    state.constraints.push_back({rank(pairs[2 * std::size_t{i}]), rank(pairs[2 * std::size_t{i} + 1]), flags});
   }
   std::sort(state.constraints.begin(), state.constraints.end());
   return state;
@@ -288,18 +303,24 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         break;
       }
       case 4: {
-        double many[2 * 48];
-        const std::uint32_t count = program.byte() % 48;
+        double many[2 * k_most_at_once];
+        const std::uint8_t choice = program.byte();
+        const std::uint32_t count = choice < 240 ? choice % 48 : k_most_at_once;
         for (std::uint32_t i = 0; i < count; ++i) {
-          program.point(xy);
-          many[2 * i] = xy[0];
-          many[2 * i + 1] = xy[1];
+          if (choice < 240) {
+            program.point(xy);
+          } else {
+            point_of_great_circle(i, xy);
+          }
+          many[2 * std::size_t{i}] = xy[0];
+          many[2 * std::size_t{i} + 1] = xy[1];
         }
-        std::uint32_t ids[48];
+        std::uint32_t ids[k_most_at_once];
         if (edits(d, starvation, [&] { return radvor_delaunay_insert_many(d, many, count, ids); })) {
           g_counters.inserted += count;
           for (std::uint32_t i = 0; i < count; ++i) {
-            if (radvor_delaunay_position(d, ids[i], xy) < 0 || xy[0] != many[2 * i] || xy[1] != many[2 * i + 1]) {
+            if (radvor_delaunay_position(d, ids[i], xy) < 0 || xy[0] != many[2 * std::size_t{i}] ||
+                xy[1] != many[2 * std::size_t{i} + 1]) {
               fail("insert_many gave another point's id");
             }
           }
@@ -346,13 +367,22 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       }
       case 11: {
         const std::uint32_t first = program.byte() % bound;
-        double values[8];
-        const std::uint32_t count = program.byte() % 9;
-        for (std::uint32_t i = 0; i < count; ++i) {
-          const std::uint8_t value = program.byte();
-          values[i] = value == 255 ? NAN : value % 8;
+        const std::uint8_t choice = program.byte();
+        if (choice < 250) {
+          double values[8];
+          const std::uint32_t count = choice % 9;
+          for (std::uint32_t i = 0; i < count; ++i) {
+            const std::uint8_t value = program.byte();
+            values[i] = value == 255 ? NAN : value % 8;
+          }
+          edits(d, starvation, [&] { return radvor_delaunay_set_values(d, values, first, count); });
+        } else {  // all of them
+          std::vector<double> values(bound - 1);
+          for (std::uint32_t i = 0; i + 1 < bound; ++i) {
+            values[i] = (i * (first + 1) ^ choice) % 7;
+          }
+          edits(d, starvation, [&] { return radvor_delaunay_set_values(d, values.data(), 0, bound - 1); });
         }
-        edits(d, starvation, [&] { return radvor_delaunay_set_values(d, values, first, count); });
         break;
       }
       case 12:
