@@ -91,9 +91,10 @@ Points with_short_segments(std::size_t count, std::size_t side) {
   std::uniform_real_distribution<double> unit(0, 1);
   Points xy;
   for (std::size_t i = 0; i < side * side; ++i) {
+    const std::size_t row = i / side;
     for (int end = 0; end < 2; ++end) {
       xy.push_back((static_cast<double>(i % side) + 0.1 + 0.8 * unit(random)) / static_cast<double>(side));
-      xy.push_back((static_cast<double>(i / side) + 0.1 + 0.8 * unit(random)) / static_cast<double>(side));
+      xy.push_back((static_cast<double>(row) + 0.1 + 0.8 * unit(random)) / static_cast<double>(side));
     }
   }
   const Points more = uniform(count - 2 * side * side, 20);
