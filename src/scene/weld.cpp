@@ -51,7 +51,8 @@ Sides keep_triangles(const Scene& scene, const Tolerance& tolerance, EdgeChains&
     const Mesh& mesh = scene.meshes[m];
     const bool reverse = mesh.clockwise != mirrors(mesh.transform);
     for (std::uint32_t t = 0; t < mesh.indices.size() / 3; ++t) {
-      Corners corners{mesh.indices[3 * t], mesh.indices[3 * t + 1], mesh.indices[3 * t + 2]};
+      const std::size_t first_index = std::size_t{3} * t;
+      Corners corners{mesh.indices[first_index], mesh.indices[first_index + 1], mesh.indices[first_index + 2]};
       if (reverse) {
         std::swap(corners[1], corners[2]);
       }
