@@ -147,8 +147,8 @@ class Builder {
     const glm::vec3 position = position_of(site, origin, weights);
     const glm::vec3 normal = normal_of(sample, origin);
     const glm::vec2 uv = mesh_.uvs.empty() ? glm::vec2(0.0f) : glm::vec2(mix_corners(mesh_.uvs, origin, weights));
-    const glm::vec3 irradiance(value_at(lit_, Quantity::irradiance, share));
-    const glm::vec3 radiance(value_at(lit_, Quantity::radiance, share));
+    const glm::vec3 irradiance(corner_value(lit_, Quantity::irradiance, share));
+    const glm::vec3 radiance(corner_value(lit_, Quantity::radiance, share));
 
     const auto next = static_cast<std::uint32_t>(site_of_vertex_.size());
     const std::uint64_t key = hash_bits(hash_bits(hash_bits(hash_bits(mix(site), normal), uv), irradiance), radiance);

@@ -4,10 +4,10 @@
 
 namespace radvor {
 
-Color value_at(const LitSurface& lit, Quantity quantity, std::uint32_t share_index) {
-  const Share& share = lit.surface.shares()[share_index];
-  const Color direct = lit.direct[share.sample];
-  const Color indirect = lit.indirect[share.sample];
+namespace {
+
+Color value_of(const LitSurface& lit, Quantity quantity, const Share& share, const Color& direct,
+               const Color& indirect) {
   switch (quantity) {
     case Quantity::irradiance:
       return direct + indirect;
@@ -23,12 +23,27 @@ Color value_at(const LitSurface& lit, Quantity quantity, std::uint32_t share_ind
   return emission + share.albedo * (direct + indirect) * std::numbers::inv_pi;
 }
 
+}  // namespace
+
+Color value_at(const LitSurface& lit, Quantity quantity, std::uint32_t share_index) {
+  const Share& share = lit.surface.shares()[share_index];
+  return value_of(lit, quantity, share, lit.direct[share.sample], lit.indirect[share.sample]);
+}
+
+Color corner_value(const LitSurface& lit, Quantity quantity, std::uint32_t share_index) {
+  const Share& share = lit.surface.shares()[share_index];
+  const auto with = [&](std::span<const Color> light, std::span<const Color> fit) {
+    return fit.empty() ? light[share.sample] : light[share.sample] + fit[share.sample];
+  };
+  return value_of(lit, quantity, share, with(lit.direct, lit.direct_fit), with(lit.indirect, lit.indirect_fit));
+}
+
 Color value_at(const LitSurface& lit, Quantity quantity, const FacetPoint& point, bool back) {
   Color value{0.0};
   for (std::size_t corner = 0; corner < 3; ++corner) {
     const std::uint32_t front = point.shares[corner];
     const std::uint32_t share = back ? lit.surface.shares()[front].other_side : front;
-    value += point.weights[corner] * value_at(lit, quantity, share);
+    value += point.weights[corner] * corner_value(lit, quantity, share);
   }
   return value;
 }

@@ -75,7 +75,7 @@ class Fit {
       for (std::size_t i = 0; i < 3; ++i) {
         const Share& share = surface.shares()[shares[i]];
         lit_triangle.corners[i] = frame.to_plane(surface.sites()[surface.samples()[share.sample].site].position);
-        light[i] = value_at(lit_, quantity_, back_ ? share.other_side : shares[i]);
+        light[i] = corner_value(lit_, quantity_, back_ ? share.other_side : shares[i]);
       }
       if (lit_triangle.area() <= 0) {
         continue;  // too thin for its own arithmetic, and for any weight

@@ -104,6 +104,14 @@ std::span<const Color> Bake::indirect() const {
   state_->require_whole();
   return state_->indirect;
 }
+std::span<const Color> Bake::direct_fit() const {
+  state_->require_whole();
+  return state_->direct_fit;
+}
+std::span<const Color> Bake::indirect_fit() const {
+  state_->require_whole();
+  return state_->indirect_fit;
+}
 
 BakeProgress Bake::progress() const {
   const BakeStats& counters = state_->counters();

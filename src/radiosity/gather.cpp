@@ -7,8 +7,8 @@
 
 namespace radvor {
 
-Gather::Gather(const Scene& scene, const Facets& facets, std::span<const std::uint32_t> occluders, bool sky, Host& host)
-    : scene_(scene), facets_(facets), occluders_(occluders), sky_(sky), host_(host), records_(&host.memory) {}
+Gather::Gather(const Scene& scene, const Facets& facets, std::span<const std::uint32_t> occluders, Host& host)
+    : scene_(scene), facets_(facets), occluders_(occluders), host_(host), records_(&host.memory) {}
 
 std::uint32_t Gather::add(std::uint32_t count) {
   const std::uint32_t first = size();
@@ -29,16 +29,9 @@ Outlook Gather::look(const Receiver& receiver, std::uint32_t ray_count, std::uin
   // The golden ratio's multiples are spread evenly whatever their number.
   constexpr double k_golden = 0.6180339887498949;
   double draw = to_unit(mix(seed + 1));
-  std::uint32_t open = 0, backs = 0, count = ray_count;
+  std::uint32_t open = 0, backs = 0;
   double inverse_distance = 0;
-  for (std::uint32_t ray = 0;; ++ray) {
-    // The edge between sky and what hides it is the sharpest there is: it is worth the net's next rays.
-    if (ray == ray_count && sky_ && open > 0 && open < ray_count) {
-      count = 2 * ray_count;
-    }
-    if (ray >= count) {
-      break;
-    }
+  for (std::uint32_t ray = 0; ray < ray_count; ++ray) {
     const Vec3 along = direction(basis, net.point(ray));
     const FirstHit hit = tracer.first_hit(receiver.lifted, along);
     if (hit.triangle == FirstHit::k_miss) {
@@ -59,7 +52,7 @@ Outlook Gather::look(const Receiver& receiver, std::uint32_t ray_count, std::uin
     const std::uint32_t front = point.shares[corner];
     on_link(hit.front ? front : shares[front].other_side);
   }
-  const double weight = 1.0 / count;
+  const double weight = 1.0 / ray_count;
   return {open * weight, backs * weight, inverse_distance * weight, weight};
 }
 

@@ -28,16 +28,15 @@ struct Outlook {
 
 class Gather {
  public:
-  /// occluders: the welded triangle of each triangle given to the visibility. sky: whether there is any. Keeps
-  /// references to all arguments.
-  Gather(const Scene& scene, const Facets& facets, std::span<const std::uint32_t> occluders, bool sky, Host& host);
+  /// occluders: the welded triangle of each triangle given to the visibility. Keeps references to all
+  /// arguments.
+  Gather(const Scene& scene, const Facets& facets, std::span<const std::uint32_t> occluders, Host& host);
 
   /// A record for each of a number of receivers to come; the first one's number.
   std::uint32_t add(std::uint32_t count);
   std::uint32_t size() const { return static_cast<std::uint32_t>(records_.size()); }
 
-  /// Casts ray_count (a power of two) rays, and as many again where there is a sky that is neither open nor hidden.
-  /// Different records may be traced side by side.
+  /// Casts ray_count (a power of two) rays. Different records may be traced side by side.
   void trace(std::uint32_t record, const Receiver& receiver, std::uint32_t ray_count, std::uint64_t seed,
              const Surface& surface, Tracer& tracer);
 
@@ -67,7 +66,6 @@ class Gather {
   const Scene& scene_;
   const Facets& facets_;
   std::span<const std::uint32_t> occluders_;
-  bool sky_;
   Host& host_;
   std::pmr::vector<Record> records_;
 };

@@ -13,9 +13,12 @@ inline constexpr double k_pi = 3.14159265358979323846;
 inline constexpr double k_rays = 4;
 inline constexpr double k_least_rays = 64, k_most_rays = 8192;
 
+/// Standard errors of a hemisphere of one ray that noise explains; they fall by N^(-3/4).
+inline constexpr double k_noise = 2;
+
 /// Light from all around is taken over so far, times the root of the tolerance, relative to the distance of what is
 /// seen (Ward's a, but linear interpolation errs by its square).
-inline constexpr double k_reach = 3;
+inline constexpr double k_reach = 2;
 
 /// Of the tolerance: what the mesh may get wrong.
 inline constexpr double k_share_of_mesh = 0.5;

@@ -23,12 +23,15 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
       scene(std::move(given)),
       direct(&host.memory),
       indirect(&host.memory),
+      direct_fit(&host.memory),
+      indirect_fit(&host.memory),
       occluders_(&host.memory),
       visibility_(nullptr, Unmake{maker, host}),
       receivers_(&host.memory),
       sights_(&host.memory),
       anchors_(&host.memory),
       records_(&host.memory),
+      ray_counts_(&host.memory),
       known_(&host.memory),
       outlooks_(&host.memory),
       first_bounce_(&host.memory),
@@ -37,9 +40,12 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
       unshot_(&host.memory),
       radiosity_(&host.memory),
       incoming_(&host.memory),
+      incoming_before_(&host.memory),
       stood_out_(&host.memory),
       probes_(&host.memory),
       probed_(&host.memory),
+      probed_bounce_(&host.memory),
+      bounce_gain_(&host.memory),
       unprobed_(&host.memory) {
   const Clock::time_point begin = Clock::now();
   welded.emplace(weld(scene, options.weld_distance, host));
@@ -79,7 +85,7 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
   pending_.resize(samples.size());
   std::iota(pending_.begin(), pending_.end(), 0u);
   blocks_.emplace(*surface, receivers_, pending_, host);
-  hemispheres_.emplace(scene, *facets, occluders_, sum(light_->sky_radiance()) > 0, host);
+  hemispheres_.emplace(scene, *facets, occluders_, host);
   stats_.seconds_setup = std::chrono::duration<double>(Clock::now() - begin).count();
   seconds = stats_.seconds_setup;
 }
@@ -98,6 +104,9 @@ void Solver::step() {
     case Stage::hemispheres:
       look_around();
       break;
+    case Stage::fit:
+      fit_between();
+      break;
     case Stage::account:
       account();
       break;
@@ -108,7 +117,9 @@ void Solver::step() {
       bounce();
       break;
     case Stage::finish:
-      finish();
+      settle_noise();
+      fit_indirect();
+      stage_ = Stage::done;
       break;
     case Stage::done:
       break;
@@ -180,23 +191,6 @@ void Solver::interpolate(std::span<const std::uint32_t> list, std::pmr::vector<C
   }
 }
 
-// Noise is settled, and where the triangulation is free its edges follow the light.
-void Solver::finish() {
-  settle_noise();
-  stage_ = Stage::done;
-  if ((options.disable & Disable::tie_alignment) != 0) {
-    return;
-  }
-  std::pmr::vector<double> values(&host.memory);
-  values.reserve(direct.size());
-  for (std::size_t i = 0; i < direct.size(); ++i) {
-    values.push_back(luminance(direct[i] + indirect[i]));
-  }
-  const Ties ties = surface->align_ties(values, options.tie_tolerance);
-  stats_.ties = ties.count;
-  stats_.realigned_ties = ties.realigned;
-}
-
 // Two fifths of the way are direct light, as many the hemispheres; the rest is the logarithm of what is left.
 void Solver::report_convergence() {
   double now = 0;
@@ -212,6 +206,7 @@ void Solver::report_convergence() {
     case Stage::hemispheres:
       now = 0.4 + 0.4 * part;
       break;
+    case Stage::fit:
     case Stage::account:
     case Stage::standouts:
       now = 0.8;

@@ -3,7 +3,7 @@
 //
 //   direct -> refinement -> probes, again while they raise sites;
 //   hemispheres -> refinement -> probes, with direct before, again while they raise sites;
-//   account -> standouts -> bounces -> finish
+//   fit -> account -> standouts -> bounces -> finish
 //
 // Light of sources that have a place or a direction is exact at every sample, and the mesh follows it, level by level.
 // Then samples look around for sky and the other surfaces. What comes from all around is smooth but near other
@@ -33,7 +33,7 @@ class Solver {
  public:
   Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& maker, Host& lender);
 
-  enum class Stage { direct, refinement, probes, hemispheres, account, standouts, bounces, finish, done };
+  enum class Stage { direct, refinement, probes, hemispheres, fit, account, standouts, bounces, finish, done };
   Stage stage() const { return stage_; }
   /// Light of sources with a place or a direction is done.
   bool looks_around() const { return looking_; }
@@ -47,9 +47,10 @@ class Solver {
   std::optional<WeldedScene> welded;
   std::optional<Facets> facets;
   std::optional<Surface> surface;
-  std::pmr::vector<Color> direct, indirect;  ///< irradiance of each sample
-  double seconds = 0;                        ///< spent since the beginning
-  double converged = 0;                      ///< 0..1, never falls
+  std::pmr::vector<Color> direct, indirect;          ///< irradiance of each sample
+  std::pmr::vector<Color> direct_fit, indirect_fit;  ///< added to both where triangles interpolate; empty: nothing
+  double seconds = 0;                                ///< spent since the beginning
+  double converged = 0;                              ///< 0..1, never falls
   double seconds_direct = 0, seconds_indirect = 0;
   const BakeStats& counters() const { return stats_; }
 
@@ -70,6 +71,7 @@ class Solver {
   void begin_level();
   void share_out_rays();
   std::uint32_t rays_for(double area) const;
+  bool may_see_edge_of_sky(std::span<const std::uint32_t, 3> around) const;
   void look_around();
   void see_first_bounce();
   void interpolate(std::span<const std::uint32_t> samples, std::pmr::vector<Color>& values) const;
@@ -77,9 +79,15 @@ class Solver {
   void shoot_standout();
   void lose(std::uint32_t share, const Color& radiosity);
   bool begin_bounce();
+  void add_series(double ratio_of_all);
   void bounce();
   void settle_noise();
-  void finish();
+  void align_ties();
+  void place_fit_probes();
+  void look_between(std::size_t probe, Tracer& tracer);
+  void fit_between();
+  void fit_indirect();
+  Color punctual_light(const Receiver& receiver, Tracer& tracer) const;
 
   // Runs work(sample, tracer) for a range of blocks of receivers.
   template <class Work>
@@ -90,6 +98,7 @@ class Solver {
   void count(const TransportCounters& counters);
   double mean_of(std::span<const Color> irradiance) const;
   std::uint32_t next_blocks(std::uint32_t per_thread) const;
+  Color gained(const Share& share) const;
   double unshot_luminance() const;
   void place_receivers();
   void report_convergence();
@@ -110,6 +119,8 @@ class Solver {
   std::pmr::vector<std::uint64_t> sights_;        // of each sample: what it sees of the sources
   std::pmr::vector<SampleOrigin> anchors_;        // of each sample that refinement made: the samples it lies between
   std::pmr::vector<std::uint32_t> records_;       // of each sample, in hemispheres_; k_none: takes it from its anchors
+  std::uint32_t first_record_ = 0;                // of the level under way
+  std::pmr::vector<std::uint32_t> ray_counts_;    // of its records
   std::pmr::vector<std::uint8_t> known_;          // of each sample: whether its outlook is
   std::pmr::vector<Outlook> outlooks_;            // of each sample
   std::pmr::vector<Color> first_bounce_;          // irradiance of each sample, for the mesh to follow
@@ -118,6 +129,7 @@ class Solver {
   std::pmr::vector<Color> unshot_;                // irradiance that each share has not reflected yet
   std::pmr::vector<glm::vec3> radiosity_;         // of each share: what is being shot
   std::pmr::vector<Color> incoming_;              // irradiance of the bounce under way, each sample
+  std::pmr::vector<Color> incoming_before_;       // of the one before
   std::pmr::vector<std::uint8_t> stood_out_;      // patches that have shot by themselves
 
   Stage stage_ = Stage::direct;
@@ -125,6 +137,8 @@ class Solver {
   std::uint32_t round_ = 0;   // of refinement
   std::pmr::vector<Probe> probes_;
   std::pmr::vector<Color> probed_;           // irradiance at each probe
+  std::pmr::vector<Color> probed_bounce_;    // of it by one reflection, for the fit
+  std::pmr::vector<Color> bounce_gain_;      // of each share's sample: what interpolation is short of, as a factor
   std::pmr::vector<std::uint8_t> unprobed_;  // of each sample: no probe was near it
   double rays_per_length_ = 0;
   bool looking_ = false;     // around: direct light alone has its mesh

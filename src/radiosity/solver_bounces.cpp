@@ -17,6 +17,8 @@ namespace {
 constexpr double k_stands_out = 0.02;
 constexpr double k_times_even_share = 16;
 
+constexpr double k_most_ratio = 0.97;  // of a bounce to the one before, as a series
+
 }  // namespace
 
 // What the sources emitted and lost; what surfaces have to reflect.
@@ -30,7 +32,7 @@ void Solver::account() {
   const auto shares = surface->shares();
   unshot_.reserve(shares.size());
   for (const Share& share : shares) {
-    unshot_.push_back(direct[share.sample]);
+    unshot_.push_back(direct_fit.empty() ? direct[share.sample] : direct[share.sample] + direct_fit[share.sample]);
   }
   incoming_.assign(receivers_.size(), Color(0.0));
   pending_.clear();
@@ -48,6 +50,14 @@ void Solver::account() {
   }
   stood_out_.assign(surface->patch_count(), 0);
   stage_ = options.max_bounces == 0 ? Stage::standouts : Stage::bounces;
+}
+
+// What a share has of its sample's incoming light: no more than makes every reflection smaller than the last.
+Color Solver::gained(const Share& share) const {
+  const Color& incoming = incoming_[share.sample];
+  return bounce_gain_.empty()
+             ? incoming
+             : glm::min(bounce_gain_[share.sample], 0.99 / glm::max(share.albedo, Color(1e-3))) * incoming;
 }
 
 double Solver::unshot_luminance() const {
@@ -106,7 +116,7 @@ void Solver::shoot_standout() {
     indirect[i] += incoming_[i];
   }
   for (std::size_t s = 0; s < shares.size(); ++s) {
-    unshot_[s] += incoming_[shares[s].sample];
+    unshot_[s] += gained(shares[s]);
   }
   ++stats_.shots;
 }
@@ -131,8 +141,13 @@ bool Solver::begin_bounce() {
   const double ratio = bounces_ > 0 && previous_unshot_ > 0 ? std::min(0.99, left / previous_unshot_) : 0.5;
   previous_unshot_ = left;
   // So put that light which is not a number ends too.
-  if (!(left / (1 - ratio) > k_share_left_unshot * options.tolerance * received) ||
-      (options.max_bounces != 0 && bounces_ >= options.max_bounces)) {
+  if (!(left / (1 - ratio) > k_share_left_unshot * options.tolerance * received)) {
+    if (options.max_bounces == 0 && bounces_ > 1) {
+      add_series(ratio);
+    }
+    return false;
+  }
+  if (options.max_bounces != 0 && bounces_ >= options.max_bounces) {
     return false;
   }
   const auto shares = surface->shares();
@@ -144,11 +159,39 @@ bool Solver::begin_bounce() {
   return true;
 }
 
+// All that is left, at once: each place's light goes on as the series of its own last two bounces. Where surfaces are
+// white and close together (a sofa's cushions) that is a third of their light, though next to nothing of the scene's.
+void Solver::add_series(double ratio_of_all) {
+  const auto ratio = [&](std::uint32_t sample, int channel) {
+    const double now = incoming_[sample][channel], before = incoming_before_[sample][channel];
+    return now < before ? std::min(now / before, k_most_ratio) : now > 0 ? std::min(ratio_of_all, k_most_ratio) : 0.0;
+  };
+  const auto shares = surface->shares();
+  for (std::uint32_t s = 0; s < shares.size(); ++s) {
+    Color sent = shares[s].albedo * unshot_[s];
+    for (int channel = 0; channel < 3; ++channel) {
+      sent[channel] /= 1 - ratio(shares[s].sample, channel);
+    }
+    lose(s, sent);
+    unshot_[s] = Color(0.0);
+  }
+  for (std::uint32_t i = 0; i < incoming_.size(); ++i) {
+    for (int channel = 0; channel < 3; ++channel) {
+      const double of = ratio(i, channel);
+      indirect[i][channel] += incoming_[i][channel] * of / (1 - of);
+    }
+  }
+}
+
 // All shares together, on some blocks of receivers.
 void Solver::bounce() {
   if (block_ == 0 && !begin_bounce()) {
     stage_ = Stage::finish;
     return;
+  }
+  if (block_ == 0) {
+    incoming_before_.swap(incoming_);
+    incoming_.resize(incoming_before_.size());
   }
   const std::uint32_t end = next_blocks(256);
   over_blocks(block_, end, [&](std::uint32_t sample, Tracer&) {
@@ -164,7 +207,7 @@ void Solver::bounce() {
     }
     const auto shares = surface->shares();
     for (std::size_t s = 0; s < shares.size(); ++s) {
-      unshot_[s] = incoming_[shares[s].sample];
+      unshot_[s] = gained(shares[s]);
     }
     stats_.shots += surface->patch_count();
   }

@@ -70,7 +70,10 @@ void Solver::begin_level() {
     ++stats_.skipped_lazy;
   }
   std::uint32_t record = hemispheres_->add(static_cast<std::uint32_t>(looking.size()));
+  ray_counts_.clear();
+  first_record_ = record;
   for (const std::uint32_t sample : looking) {
+    ray_counts_.push_back(rays_for(samples[sample].area) * (may_see_edge_of_sky(anchors_[sample].samples) ? 2 : 1));
     records_[sample] = record++;
   }
   blocks_.emplace(*surface, receivers_, looking, host);
@@ -93,10 +96,18 @@ std::uint32_t Solver::rays_for(double area) const {
   return std::bit_ceil(static_cast<std::uint32_t>(wanted));
 }
 
+// The edge between sky and what hides it is the sharpest there is: it is worth as many rays again. Their number does
+// not depend on what they meet: to go on only where the first ones saw sky would darken all that sees little of it.
+bool Solver::may_see_edge_of_sky(std::span<const std::uint32_t, 3> around) const {
+  return sum(light_->sky_radiance()) > 0 && std::any_of(around.begin(), around.end(), [&](std::uint32_t sample) {
+           return sample == k_none || known_[sample] == 0 || (outlooks_[sample].open > 0 && outlooks_[sample].open < 1);
+         });
+}
+
 // What some blocks of pending receivers see of their hemispheres.
 void Solver::look_around() {
   if ((options.disable & Disable::indirect) != 0 && sum(light_->sky_radiance()) <= 0) {
-    stage_ = Stage::account;
+    stage_ = Stage::fit;
     return;
   }
   if (block_ == 0) {
@@ -105,8 +116,8 @@ void Solver::look_around() {
   const std::uint32_t end = next_blocks(4);
   over_blocks(block_, end, [&](std::uint32_t sample, Tracer& tracer) {
     const std::uint32_t record = records_[sample];
-    hemispheres_->trace(record, receivers_[sample], rays_for(surface->samples()[sample].area),
-                        hash(options.seed, record), *surface, tracer);
+    const std::uint32_t rays = ray_counts_[record - first_record_];
+    hemispheres_->trace(record, receivers_[sample], rays, hash(options.seed, record), *surface, tracer);
     outlooks_[sample] = hemispheres_->outlook(record);
     known_[sample] = 1;
   });
@@ -160,7 +171,7 @@ void Solver::settle_noise() {
   for (std::size_t i = 0; i < direct.size(); ++i) {
     const Outlook& outlook = outlooks_[i];
     sky_light[i] = outlook.open * sky;
-    punctual[i] = direct[i] - sky_light[i];
+    punctual[i] = glm::max(direct[i] - sky_light[i], Color(0.0));
     certain[i].reach = reach / std::max(outlook.inverse_distance, 1e-300);
     certain[i].noise = records_[i] == k_none ? 0 : std::pow(outlook.weight, 0.75);
   }
@@ -173,7 +184,7 @@ void Solver::settle_noise() {
   interpolate(interpolated_, sky_light);
   for (std::size_t i = 0; i < direct.size(); ++i) {
     if (sky_light[i] != outlooks_[i].open * sky) {  // else to the bit as it was
-      direct[i] = glm::max(punctual[i], Color(0.0)) + sky_light[i];
+      direct[i] = punctual[i] + sky_light[i];
     }
   }
 }

@@ -41,7 +41,7 @@ void Solver::refine() {
   if (options.spacing.refines) {
     stage_ = Stage::probes;
   } else if (looking_) {
-    stage_ = Stage::account;
+    stage_ = Stage::fit;
   } else {
     begin_looking();
   }

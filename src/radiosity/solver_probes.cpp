@@ -12,7 +12,6 @@ namespace radvor {
 namespace {
 
 constexpr double k_probed = 0.1;  // of the squared tolerance: share of the area that a triangle is probed from
-constexpr double k_noise = 2;     // standard errors of a hemisphere of one ray; they fall by N^(-3/4)
 
 }  // namespace
 
@@ -31,15 +30,13 @@ void Solver::probe() {
       const Probe& probe = probes_[k];
       if (looking_) {
         const std::uint64_t seed = hash(options.seed, std::uint64_t{round_} + 1, k);
+        const std::uint32_t rays = probe_rays() * (may_see_edge_of_sky(probe.samples) ? 2 : 1);
         const Outlook outlook =
-            hemispheres_->glance(probe.receiver, probe_rays(), seed, *surface, radiosity_, tracer, probed_[k]);
+            hemispheres_->glance(probe.receiver, rays, seed, *surface, radiosity_, tracer, probed_[k]);
         probed_[k] += outlook.open * sky;
         continue;
       }
-      for (std::uint32_t source = 0; source < light_->source_count(); ++source) {
-        Sight sight;
-        probed_[k] += light_->irradiance(source, probe.receiver, tracer, sight);
-      }
+      probed_[k] = punctual_light(probe.receiver, tracer);
     }
   });
   block_ = end;
@@ -51,10 +48,20 @@ void Solver::probe() {
     return;
   }
   if (looking_) {
-    stage_ = Stage::account;
+    stage_ = Stage::fit;
   } else {
     begin_looking();
   }
+}
+
+// Of all sources with a place or a direction.
+Color Solver::punctual_light(const Receiver& receiver, Tracer& tracer) const {
+  Color light(0.0);
+  for (std::uint32_t source = 0; source < light_->source_count(); ++source) {
+    Sight sight;
+    light += light_->irradiance(source, receiver, tracer, sight);
+  }
+  return light;
 }
 
 std::uint32_t Solver::probe_rays() const {
