@@ -10,6 +10,9 @@ namespace {
 // mean of the products of two barycentric coordinates is 1/12, in the middle it is 1/9.
 constexpr double k_mean_of_middle = 0.75;
 
+// One leaves a third of what differs from triangle to triangle; after two more nothing is gained.
+constexpr int k_rounds = 2;
+
 }  // namespace
 
 std::pmr::vector<Color> fit_to_probes(const Surface& surface, std::span<const Probe> probes,
@@ -35,20 +38,33 @@ std::pmr::vector<Color> fit_to_probes(const Surface& surface, std::span<const Pr
       }
     }
   }
-  std::pmr::vector<Color> fit(samples.size(), Color(0.0), memory);
   std::pmr::vector<Color> low(values.begin(), values.end(), memory), high(values.begin(), values.end(), memory);
+  std::pmr::vector<Color> missing(memory);  // of each probe's triangle, on the mean
+  missing.reserve(probes.size());
   for (std::size_t p = 0; p < probes.size(); ++p) {
     const auto& corners = probes[p].samples;
-    const Color missing = found[p] - (values[corners[0]] + values[corners[1]] + values[corners[2]]) / 3.0;
+    const Color interpolated = (values[corners[0]] + values[corners[1]] + values[corners[2]]) / 3.0;
+    missing.push_back(k_mean_of_middle * (found[p] - interpolated));
     for (const std::uint32_t sample : corners) {
-      fit[sample] += k_mean_of_middle * probes[p].area * missing;
       low[sample] = glm::min(low[sample], found[p]);
       high[sample] = glm::max(high[sample], found[p]);
     }
   }
-  for (std::size_t i = 0; i < fit.size(); ++i) {
-    if (areas[i] > 0) {
-      fit[i] = glm::clamp(values[i] + fit[i] / areas[i], low[i], high[i]) - values[i];
+  // The mean of what is missing about a corner goes to the corner; what that leaves missing is next.
+  std::pmr::vector<Color> fit(samples.size(), Color(0.0), memory), step(memory);
+  for (int round = 0; round < k_rounds; ++round) {
+    step.assign(samples.size(), Color(0.0));
+    for (std::size_t p = 0; p < probes.size(); ++p) {
+      const auto& corners = probes[p].samples;
+      const Color left = missing[p] - (fit[corners[0]] + fit[corners[1]] + fit[corners[2]]) / 3.0;
+      for (const std::uint32_t sample : corners) {
+        step[sample] += probes[p].area * left;
+      }
+    }
+    for (std::size_t i = 0; i < fit.size(); ++i) {
+      if (areas[i] > 0) {
+        fit[i] = glm::clamp(values[i] + fit[i] + step[i] / areas[i], low[i], high[i]) - values[i];
+      }
     }
   }
   return fit;
