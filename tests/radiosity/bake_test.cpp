@@ -148,6 +148,39 @@ TEST(Sky, RoofOpeningOfCie171Case59) {
   EXPECT_LT(std::abs(error), 0.002 * mean);
 }
 
+// Half a percent of what the floor sees is sky: most hemispheres have no ray there, and the mean has to be right
+// anyway.
+TEST(Sky, LittleOfItIsNotLess) {
+  SceneBuilder builder;
+  const std::uint32_t black = builder.material(Color(0.0));
+  builder.quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, black);
+  builder.scene.meshes.push_back(std::move(builder.mesh()));
+  builder.mesh() = Mesh(std::pmr::get_default_resource());
+  builder.mesh().receives = false;  // a lid of 40 x 40 with a hole of 0.2 x 0.2, one unit above
+  const Vec2 hole[4] = {{-0.1, -0.1}, {0.1, -0.1}, {0.1, 0.1}, {-0.1, 0.1}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec2 &a = hole[i], &b = hole[(i + 1) % 4];
+    builder.quad({a, 1}, {200.0 * a, 1}, {200.0 * b, 1}, {b, 1}, black);
+    builder.quad({200.0 * a, 0}, {200.0 * b, 0}, {200.0 * b, 1}, {200.0 * a, 1}, black);
+  }
+  Light sky;
+  sky.type = LightType::sky;
+  sky.color = Color(1.0);
+  builder.scene.lights = {sky};
+  TestBake bake(builder.take(), coarse(0.05, 0.1));
+  bake.run();
+  const std::array<Vec3, 4> opening = {Vec3(-0.1, -0.1, 1), Vec3(-0.1, 0.1, 1), Vec3(0.1, 0.1, 1), Vec3(0.1, -0.1, 1)};
+  const auto samples = (*bake).surface().samples();
+  double baked = 0, exact = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    baked += (*bake).direct()[i].g / k_pi;
+    exact += polygon_form_factor(samples[i].point, samples[i].normal, opening, {0, 0, -1});
+  }
+  EXPECT_GT(samples.size(), 1000u);
+  EXPECT_LT(exact / static_cast<double>(samples.size()), 0.01);
+  EXPECT_NEAR(baked / exact, 1, 0.03);
+}
+
 TEST(Sky, OpenPlainSeesAllOfIt) {
   SceneBuilder builder;
   builder.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, builder.material(Color(0.5)));
@@ -160,6 +193,21 @@ TEST(Sky, OpenPlainSeesAllOfIt) {
   for (std::size_t i = 0; i < (*bake).surface().samples().size(); ++i) {
     EXPECT_EQ((*bake).direct()[i], Color(k_pi * 0.25));
     EXPECT_EQ((*bake).indirect()[i], Color(0.0));
+  }
+}
+
+// A white room beside a bright one, closed both: what the white one lacks when all light has converged is nothing to
+// the scene and half of its own.
+TEST(Bounces, EndAsEachPlacesOwnSeries) {
+  SceneBuilder builder;
+  builder.box({0, 0, 0}, {4, 4, 4}, true, builder.material(Color(0.5), Color(100.0)));
+  builder.box({10, 0, 0}, {11, 1, 1}, true, builder.material(Color(0.95), Color(0.001)));
+  TestBake bake(builder.take(), coarse(0.05, 0.5));
+  bake.run();
+  const auto samples = (*bake).surface().samples();
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double exact = samples[i].point.x < 5 ? k_pi * 100.0 / 0.5 : k_pi * 0.001 / 0.05;
+    EXPECT_NEAR(bake.irradiance(i).g, exact, 0.02 * exact) << i;
   }
 }
 
