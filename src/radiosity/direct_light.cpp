@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "radiosity/punctual_light.h"
 
@@ -84,6 +85,35 @@ Color DirectLight::irradiance(std::uint32_t source, const Receiver& receiver, Tr
     sight.add(of_triangle);
   }
   return sum;
+}
+
+std::optional<DirectLight::Beam> DirectLight::beam(std::uint32_t source, const Vec3& to) const {
+  Vec3 from(0.0), facing(0.0);
+  if (source < punctual_.size()) {
+    if (punctual_[source].type == LightType::directional) {
+      return Beam{punctual_[source].direction, std::numeric_limits<double>::infinity()};
+    }
+    from = punctual_[source].position;
+  } else {
+    const EmitterRange range = emitting_facets_[source - punctual_.size()];
+    double area = 0;
+    for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
+      const Emitter& emitter = emitters_[i];
+      from += emitter.area / 3 * (emitter.corners[0] + emitter.corners[1] + emitter.corners[2]);
+      facing += emitter.area * emitter.normal;
+      area += emitter.area;
+    }
+    if (area <= 0) {
+      return {};
+    }
+    from /= area;
+  }
+  const Vec3 apart = to - from;
+  const double distance = glm::length(apart);
+  if (!(distance > 0) || (facing != Vec3(0.0) && glm::dot(facing, apart) <= 0)) {
+    return {};
+  }
+  return Beam{apart / distance, distance};
 }
 
 }  // namespace radvor

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory_resource>
+#include <optional>
 #include <vector>
 
 #include "base/host.h"
@@ -27,6 +28,13 @@ class DirectLight {
 
   /// What one source adds at a receiver, W m^-2, and how much of it is seen.
   Color irradiance(std::uint32_t source, const Receiver& receiver, Tracer& tracer, Sight& sight) const;
+
+  /// How light from the middle of a source comes to a place; nothing where it does not: behind a surface that emits.
+  struct Beam {
+    Vec3 way;         ///< unit, as the light travels
+    double distance;  ///< from the source; infinite for a sun
+  };
+  std::optional<Beam> beam(std::uint32_t source, const Vec3& to) const;
 
   std::span<const Light> punctual_lights() const { return punctual_; }
   std::span<const Emitter> emitters() const { return emitters_; }

@@ -42,6 +42,7 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
       incoming_(&host.memory),
       incoming_before_(&host.memory),
       stood_out_(&host.memory),
+      shadowed_(&host.memory),
       probes_(&host.memory),
       probed_(&host.memory),
       probed_bounce_(&host.memory),
@@ -86,6 +87,9 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
   std::iota(pending_.begin(), pending_.end(), 0u);
   blocks_.emplace(*surface, receivers_, pending_, host);
   hemispheres_.emplace(scene, *facets, occluders_, host);
+  if (options.spacing.refines && light_->source_count() > 0 && !occluders_.empty()) {
+    silhouettes_.emplace(*surface, *light_, occluders_, host);
+  }
   stats_.seconds_setup = std::chrono::duration<double>(Clock::now() - begin).count();
   seconds = stats_.seconds_setup;
 }
@@ -97,6 +101,9 @@ void Solver::step() {
       break;
     case Stage::refinement:
       refine();
+      break;
+    case Stage::silhouettes:
+      cast_shadows();
       break;
     case Stage::probes:
       probe();
@@ -200,6 +207,7 @@ void Solver::report_convergence() {
       now = 0.4 * (source_ + part) / std::max(1u, light_->source_count());
       break;
     case Stage::refinement:
+    case Stage::silhouettes:
     case Stage::probes:
       now = 0.4;
       break;

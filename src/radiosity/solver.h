@@ -1,7 +1,7 @@
 // The state of a bake and the steps of its loop. Each step is a unit of work whose order is fixed, small enough for a
 // time slice but for what plans and renumbers the mesh.
 //
-//   direct -> refinement -> probes, again while they raise sites;
+//   direct -> refinement -> (once) silhouettes -> probes, again while they raise sites;
 //   hemispheres -> refinement -> probes, with direct before, again while they raise sites;
 //   fit -> account -> standouts -> bounces -> finish
 //
@@ -25,6 +25,7 @@
 #include "radiosity/probes.h"
 #include "radiosity/receiver.h"
 #include "radiosity/receiver_blocks.h"
+#include "radiosity/silhouettes.h"
 #include "radiosity/tracer.h"
 
 namespace radvor {
@@ -33,7 +34,19 @@ class Solver {
  public:
   Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& maker, Host& lender);
 
-  enum class Stage { direct, refinement, probes, hemispheres, fit, account, standouts, bounces, finish, done };
+  enum class Stage {
+    direct,
+    refinement,
+    silhouettes,
+    probes,
+    hemispheres,
+    fit,
+    account,
+    standouts,
+    bounces,
+    finish,
+    done
+  };
   Stage stage() const { return stage_; }
   /// Light of sources with a place or a direction is done.
   bool looks_around() const { return looking_; }
@@ -57,6 +70,9 @@ class Solver {
  private:
   void shine();
   void refine();
+  void cast_shadows();
+  void judge_shadows();
+  double score_of(double found, double expected, double mean, double area) const;
   void probe();
   std::uint32_t probe_rays() const;
   void place_probes_due();
@@ -133,8 +149,10 @@ class Solver {
   std::pmr::vector<std::uint8_t> stood_out_;      // patches that have shot by themselves
 
   Stage stage_ = Stage::direct;
-  std::uint32_t source_ = 0;  // of the direct stage
-  std::uint32_t round_ = 0;   // of refinement
+  std::uint32_t source_ = 0;                // of the direct stage
+  std::uint32_t round_ = 0;                 // of refinement
+  std::optional<Silhouettes> silhouettes_;  // until they are cast
+  std::pmr::vector<Shadowed> shadowed_;
   std::pmr::vector<Probe> probes_;
   std::pmr::vector<Color> probed_;           // irradiance at each probe
   std::pmr::vector<Color> probed_bounce_;    // of it by one reflection, for the fit

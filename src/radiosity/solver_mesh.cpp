@@ -39,7 +39,7 @@ void Solver::refine() {
     }
   }
   if (options.spacing.refines) {
-    stage_ = Stage::probes;
+    stage_ = silhouettes_ ? Stage::silhouettes : Stage::probes;
   } else if (looking_) {
     stage_ = Stage::fit;
   } else {

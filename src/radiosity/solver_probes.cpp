@@ -1,5 +1,6 @@
 // Whether light between the samples is what they say.
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -103,13 +104,17 @@ std::pmr::vector<std::uint32_t> Solver::wrong_between() const {
   const double noise = looking_ ? k_noise * std::pow(probe_rays(), -0.75) : 0;
   struct Wrong {
     double score;
-    std::uint32_t probe;
+    std::array<std::uint32_t, 3> samples;
   };
   std::pmr::vector<Wrong> wrong(&host.memory);
   double left = 0, area = 0;
   for (const Sample& sample : samples) {
     area += sample.area;
   }
+  const auto add = [&](double score, const std::array<std::uint32_t, 3>& about) {
+    left += score;
+    wrong.push_back({score, about});
+  };
   for (std::uint32_t k = 0; k < probes_.size() && mean > 0; ++k) {
     const Probe& probe = probes_[k];
     double expected = 0;
@@ -117,14 +122,24 @@ std::pmr::vector<std::uint32_t> Solver::wrong_between() const {
       expected += sum(looking_ ? outlooks_[sample].open * sky + first_bounce_[sample] : direct[sample]) / 9;
     }
     const double found = sum(probed_[k]) / 3;
-    const double error = std::max(0.0, std::abs(found - expected) - noise * std::max(found, expected));
-    const double relative = error / (k_share_of_mesh * options.tolerance * mean);
-    const double score = relative * relative * probe.area;
-    left += score;
-    wrong.push_back({score, k});
+    const double unexplained = std::max(0.0, std::abs(found - expected) - noise * std::max(found, expected));
+    add(score_of(unexplained, 0, mean, probe.area), probe.samples);
   }
-  std::sort(wrong.begin(), wrong.end(),
-            [](const Wrong& a, const Wrong& b) { return a.score != b.score ? a.score > b.score : a.probe < b.probe; });
+  for (std::size_t k = 0; k < shadowed_.size() && !looking_; ++k) {
+    const Shadowed& place = shadowed_[k];
+    const FacetPoint point = surface->locate(place.facet, place.at);
+    std::array<std::uint32_t, 3> about;
+    double expected = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Share& front = surface->shares()[point.shares[i]];
+      about[i] = place.back ? surface->shares()[front.other_side].sample : front.sample;
+      expected += point.weights[i] * sum(direct[about[i]]) / 3;
+    }
+    add(score_of(sum(place.light) / 3, expected, mean, place.area), about);
+  }
+  std::sort(wrong.begin(), wrong.end(), [](const Wrong& a, const Wrong& b) {
+    return a.score != b.score ? a.score > b.score : a.samples < b.samples;
+  });
   std::pmr::vector<std::uint32_t> raised(&host.memory);
   std::pmr::vector<std::uint8_t> is_raised(surface->sites().size(), 0, &host.memory);
   for (const Wrong& of : wrong) {
@@ -132,7 +147,7 @@ std::pmr::vector<std::uint32_t> Solver::wrong_between() const {
       break;
     }
     left -= of.score;
-    for (const std::uint32_t sample : probes_[of.probe].samples) {
+    for (const std::uint32_t sample : of.samples) {
       const std::uint32_t site = samples[sample].site;
       if (is_raised[site] == 0) {
         is_raised[site] = 1;

@@ -154,5 +154,35 @@ TEST(Refinement, FurnaceStaysOne) {
   }
 }
 
+// A leaf whose shadow lies between all samples of the first meshes, and off the middles of their triangles: it is found
+// from the sun.
+TEST(Refinement, ASmallShadowIsFoundFromTheSource) {
+  for (const double size : {0.3, 0.1}) {
+    SceneBuilder builder;
+    const std::uint32_t grey = builder.material(Color(0.5));
+    builder.quad({-4, -4, 0}, {4, -4, 0}, {4, 4, 0}, {-4, 4, 0}, grey);
+    const Vec3 leaf(0.37, 0.21, 0.5);
+    builder.quad(leaf - Vec3(size, size, 0) / 2.0, leaf + Vec3(size, -size, 0) / 2.0, leaf + Vec3(size, size, 0) / 2.0,
+                 leaf + Vec3(-size, size, 0) / 2.0, grey);
+    Light sun;
+    sun.type = LightType::directional;
+    sun.direction = {0, 0, -1};
+    sun.color = Color(1.0);
+    builder.scene.lights = {sun};
+    BakeOptions options = refining(0.01, 1.0);
+    options.disable = Disable::indirect;
+    TestBake bake(builder.take(), options);
+    bake.run();
+    const auto samples = (*bake).surface().samples();
+    std::size_t dark = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const Vec3& at = samples[i].point;
+      const bool under = std::max(std::abs(at.x - leaf.x), std::abs(at.y - leaf.y)) < size / 2 - 1e-6;
+      dark += at.z == 0 && under ? 1 : 0;
+    }
+    EXPECT_GE(dark, 4u) << size;
+  }
+}
+
 }  // namespace
 }  // namespace radvor

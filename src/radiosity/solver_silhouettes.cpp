@@ -1,0 +1,81 @@
+// Shadows that no sample and no probe meets: found by rays from the sources, and kept until the mesh tells of them.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "radiosity/method.h"
+#include "radiosity/solver.h"
+
+namespace radvor {
+
+namespace {
+
+constexpr double k_noticed = 1e-4;  // of the goal: a shadow's share of the squared error that is worth keeping
+
+}  // namespace
+
+void Solver::cast_shadows() {
+  const std::uint32_t count = silhouettes_->block_count();
+  const std::uint32_t end = std::min(count, block_ + 16 * host.jobs.thread_count());
+  std::pmr::vector<std::optional<CastShadow>> shadows(std::size_t{end - block_} * Silhouettes::k_block, &host.memory);
+  over(block_, end, [&](std::uint32_t block, Tracer& tracer) {
+    silhouettes_->cast(
+        block, tracer,
+        std::span(shadows).subspan(std::size_t{block - block_} * Silhouettes::k_block, Silhouettes::k_block));
+  });
+  silhouettes_->keep(shadows);
+  block_ = end;
+  if (block_ == count) {
+    block_ = 0;
+    judge_shadows();
+    silhouettes_.reset();
+    stage_ = Stage::probes;
+  }
+}
+
+// Where the corners of a shadow's triangle do not tell of it by themselves. Of its source alone first: what most
+// shadows fall in is dark already.
+void Solver::judge_shadows() {
+  const double mean = mean_of(direct);
+  const std::pmr::vector<CastShadow> casts = silhouettes_->largest_of_each();
+  double area = 0;
+  for (const Sample& sample : surface->samples()) {
+    area += sample.area;
+  }
+  std::pmr::vector<std::uint8_t> kept(casts.size(), 0, &host.memory);
+  std::pmr::vector<Color> light(casts.size(), Color(0.0), &host.memory);
+  constexpr std::uint32_t k_block = 64;
+  over(0, static_cast<std::uint32_t>((casts.size() + k_block - 1) / k_block), [&](std::uint32_t block, Tracer& tracer) {
+    const std::size_t stop = std::min<std::size_t>(casts.size(), std::size_t{block + 1} * k_block);
+    for (std::size_t k = std::size_t{block} * k_block; k < stop; ++k) {
+      const CastShadow& cast = casts[k];
+      Sight sight;
+      const double found = sum(light_->irradiance(cast.source, cast.receiver, tracer, sight)) / 3;
+      double expected = 0;
+      const FacetPoint point = surface->locate(cast.facet, cast.at);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Share& front = surface->shares()[point.shares[i]];
+        const std::uint32_t sample = cast.back ? surface->shares()[front.other_side].sample : front.sample;
+        expected += point.weights[i] * sum(light_->irradiance(cast.source, receivers_[sample], tracer, sight)) / 3;
+      }
+      if (score_of(found, expected, mean, cast.area) > k_noticed * area) {
+        kept[k] = 1;
+        light[k] = punctual_light(cast.receiver, tracer);
+      }
+    }
+  });
+  for (std::size_t k = 0; k < casts.size(); ++k) {
+    if (kept[k] != 0) {
+      const CastShadow& cast = casts[k];
+      shadowed_.push_back({cast.facet, cast.back, cast.at, cast.area, cast.receiver, light[k]});
+    }
+  }
+}
+
+// Squared error over an area, in units of the goal's.
+double Solver::score_of(double found, double expected, double mean, double area) const {
+  const double relative = mean > 0 ? (found - expected) / (k_share_of_mesh * options.tolerance * mean) : 0;
+  return relative * relative * area;
+}
+
+}  // namespace radvor
