@@ -18,13 +18,12 @@ struct LitSurface {
 
   LitSurface(const Bake& bake)  // NOLINT(google-explicit-constructor): wherever light is read, a bake will do
       : LitSurface(bake.surface(), bake.direct(), bake.indirect(), bake.host()) {
-    direct_fit = bake.direct_fit();
-    indirect_fit = bake.indirect_fit();
+    fit = bake.fit();
   }
 
   const Surface& surface;
   std::span<const Color> direct, indirect;  ///< irradiance per sample of the surface, W m^-2
-  std::span<const Color> direct_fit, indirect_fit;  ///< added to them where triangles interpolate; empty: nothing
+  std::span<const Color> fit;               ///< added to direct where triangles interpolate; empty: nothing
   Host& host;
 };
 

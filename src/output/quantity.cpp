@@ -32,10 +32,8 @@ Color value_at(const LitSurface& lit, Quantity quantity, std::uint32_t share_ind
 
 Color corner_value(const LitSurface& lit, Quantity quantity, std::uint32_t share_index) {
   const Share& share = lit.surface.shares()[share_index];
-  const auto with = [&](std::span<const Color> light, std::span<const Color> fit) {
-    return fit.empty() ? light[share.sample] : light[share.sample] + fit[share.sample];
-  };
-  return value_of(lit, quantity, share, with(lit.direct, lit.direct_fit), with(lit.indirect, lit.indirect_fit));
+  const Color fit = lit.fit.empty() ? Color(0.0) : lit.fit[share.sample];
+  return value_of(lit, quantity, share, lit.direct[share.sample] + fit, lit.indirect[share.sample]);
 }
 
 Color value_at(const LitSurface& lit, Quantity quantity, const FacetPoint& point, bool back) {

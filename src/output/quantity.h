@@ -13,7 +13,7 @@ enum class Quantity : std::uint32_t { irradiance = 0, direct = 1, indirect = 2, 
 /// emission + albedo * irradiance / pi.
 Color value_at(const LitSurface& lit, Quantity quantity, std::uint32_t share);
 
-/// What it is at the share's corner of a triangle that interpolates linearly: the two differ by LitSurface::direct_fit and indirect_fit.
+/// What it is at the share's corner of a triangle that interpolates linearly: the two differ by LitSurface::fit.
 Color corner_value(const LitSurface& lit, Quantity quantity, std::uint32_t share);
 
 /// Between the three shares round a point of a facet, by corner values. back: on the other side of a two-sided facet;

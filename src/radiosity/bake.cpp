@@ -104,13 +104,9 @@ std::span<const Color> Bake::indirect() const {
   state_->require_whole();
   return state_->indirect;
 }
-std::span<const Color> Bake::direct_fit() const {
+std::span<const Color> Bake::fit() const {
   state_->require_whole();
-  return state_->direct_fit;
-}
-std::span<const Color> Bake::indirect_fit() const {
-  state_->require_whole();
-  return state_->indirect_fit;
+  return state_->fit;
 }
 
 BakeProgress Bake::progress() const {

@@ -90,9 +90,8 @@ class Bake {
   /// Irradiance of each sample of the surface, W m^-2.
   std::span<const Color> direct() const;
   std::span<const Color> indirect() const;
-  /// What is added to either where triangles interpolate (fit.h); empty where nothing is.
-  std::span<const Color> direct_fit() const;
-  std::span<const Color> indirect_fit() const;
+  /// What is added to direct() where triangles interpolate (fit.h); empty where nothing is.
+  std::span<const Color> fit() const;
 
   BakeProgress progress() const;
   BakeStats stats() const;

@@ -23,8 +23,7 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
       scene(std::move(given)),
       direct(&host.memory),
       indirect(&host.memory),
-      direct_fit(&host.memory),
-      indirect_fit(&host.memory),
+      fit(&host.memory),
       occluders_(&host.memory),
       visibility_(nullptr, Unmake{maker, host}),
       receivers_(&host.memory),
@@ -45,8 +44,6 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
       shadowed_(&host.memory),
       probes_(&host.memory),
       probed_(&host.memory),
-      probed_bounce_(&host.memory),
-      bounce_gain_(&host.memory),
       unprobed_(&host.memory) {
   const Clock::time_point begin = Clock::now();
   welded.emplace(weld(scene, options.weld_distance, host));
@@ -125,7 +122,6 @@ void Solver::step() {
       break;
     case Stage::finish:
       settle_noise();
-      fit_indirect();
       stage_ = Stage::done;
       break;
     case Stage::done:

@@ -60,10 +60,10 @@ class Solver {
   std::optional<WeldedScene> welded;
   std::optional<Facets> facets;
   std::optional<Surface> surface;
-  std::pmr::vector<Color> direct, indirect;          ///< irradiance of each sample
-  std::pmr::vector<Color> direct_fit, indirect_fit;  ///< added to both where triangles interpolate; empty: nothing
-  double seconds = 0;                                ///< spent since the beginning
-  double converged = 0;                              ///< 0..1, never falls
+  std::pmr::vector<Color> direct, indirect;  ///< irradiance of each sample
+  std::pmr::vector<Color> fit;               ///< added to direct where triangles interpolate; empty: nothing
+  double seconds = 0;                        ///< spent since the beginning
+  double converged = 0;                      ///< 0..1, never falls
   double seconds_direct = 0, seconds_indirect = 0;
   const BakeStats& counters() const { return stats_; }
 
@@ -100,9 +100,7 @@ class Solver {
   void settle_noise();
   void align_ties();
   void place_fit_probes();
-  void look_between(std::size_t probe, Tracer& tracer);
   void fit_between();
-  void fit_indirect();
   Color punctual_light(const Receiver& receiver, Tracer& tracer) const;
 
   // Runs work(sample, tracer) for a range of blocks of receivers.
@@ -114,7 +112,6 @@ class Solver {
   void count(const TransportCounters& counters);
   double mean_of(std::span<const Color> irradiance) const;
   std::uint32_t next_blocks(std::uint32_t per_thread) const;
-  Color gained(const Share& share) const;
   double unshot_luminance() const;
   void place_receivers();
   void report_convergence();
@@ -155,8 +152,6 @@ class Solver {
   std::pmr::vector<Shadowed> shadowed_;
   std::pmr::vector<Probe> probes_;
   std::pmr::vector<Color> probed_;           // irradiance at each probe
-  std::pmr::vector<Color> probed_bounce_;    // of it by one reflection, for the fit
-  std::pmr::vector<Color> bounce_gain_;      // of each share's sample: what interpolation is short of, as a factor
   std::pmr::vector<std::uint8_t> unprobed_;  // of each sample: no probe was near it
   double rays_per_length_ = 0;
   bool looking_ = false;     // around: direct light alone has its mesh

@@ -32,7 +32,7 @@ void Solver::account() {
   const auto shares = surface->shares();
   unshot_.reserve(shares.size());
   for (const Share& share : shares) {
-    unshot_.push_back(direct_fit.empty() ? direct[share.sample] : direct[share.sample] + direct_fit[share.sample]);
+    unshot_.push_back(fit.empty() ? direct[share.sample] : direct[share.sample] + fit[share.sample]);
   }
   incoming_.assign(receivers_.size(), Color(0.0));
   pending_.clear();
@@ -50,14 +50,6 @@ void Solver::account() {
   }
   stood_out_.assign(surface->patch_count(), 0);
   stage_ = options.max_bounces == 0 ? Stage::standouts : Stage::bounces;
-}
-
-// What a share has of its sample's incoming light: no more than makes every reflection smaller than the last.
-Color Solver::gained(const Share& share) const {
-  const Color& incoming = incoming_[share.sample];
-  return bounce_gain_.empty()
-             ? incoming
-             : glm::min(bounce_gain_[share.sample], 0.99 / glm::max(share.albedo, Color(1e-3))) * incoming;
 }
 
 double Solver::unshot_luminance() const {
@@ -116,7 +108,7 @@ void Solver::shoot_standout() {
     indirect[i] += incoming_[i];
   }
   for (std::size_t s = 0; s < shares.size(); ++s) {
-    unshot_[s] += gained(shares[s]);
+    unshot_[s] += incoming_[shares[s].sample];
   }
   ++stats_.shots;
 }
@@ -207,7 +199,7 @@ void Solver::bounce() {
     }
     const auto shares = surface->shares();
     for (std::size_t s = 0; s < shares.size(); ++s) {
-      unshot_[s] = gained(shares[s]);
+      unshot_[s] = incoming_[shares[s].sample];
     }
     stats_.shots += surface->patch_count();
   }
