@@ -18,7 +18,7 @@ inline constexpr double k_noise = 2;
 
 /// Light from all around is taken over so far, times the root of the tolerance, relative to the distance of what is
 /// seen (Ward's a, but linear interpolation errs by its square).
-inline constexpr double k_reach = 2;
+inline constexpr double k_reach = 1.5;
 
 /// Of the tolerance: what the mesh may get wrong.
 inline constexpr double k_share_of_mesh = 0.5;
