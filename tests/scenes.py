@@ -35,10 +35,10 @@ k_arguments = {}
 
 # The largest errors for a scene to pass, at default options.
 k_bounds = {
-    "cornell": {"rms": 0.02, "local": 0.05},
+    "cornell": {"rms": 0.015, "local": 0.02},
     "gazebo": {"rms": 0.03},
     "kenney-fps": {"rms99": 0.02, "local": 0.1},
-    "living-room": {"rms99": 0.06, "local": 0.15},
+    "living-room": {"rms99": 0.05, "local": 0.15},
     "staircase": {"rms99": 0.05},
 }
 

@@ -32,7 +32,7 @@ struct Shadowed {
   std::uint32_t facet;
   bool back;
   Vec2 at;
-  double area;  ///< of the shadows in its triangle, at most the triangle's
+  double area;  ///< of the shadows that fall in its triangle
   Receiver receiver;
   Color light{0.0};
 };
