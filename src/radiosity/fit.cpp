@@ -10,7 +10,7 @@ namespace {
 // mean of the products of two barycentric coordinates is 1/12, in the middle it is 1/9.
 constexpr double k_mean_of_middle = 0.75;
 
-// One leaves a third of what differs from triangle to triangle; after two more nothing is gained.
+// On the floor of docs/paper.md (340 sites) one leaves 2.04 %, two 1.93 %, three 1.90 %, five 1.92 %.
 constexpr int k_rounds = 2;
 
 }  // namespace

@@ -152,7 +152,7 @@ bool Solver::begin_bounce() {
 }
 
 // All that is left, at once: each place's light goes on as the series of its own last two bounces. Where surfaces are
-// white and close together (a sofa's cushions) that is a third of their light, though next to nothing of the scene's.
+// white and close together (a sofa's cushions) that is a seventh of their light, though next to nothing of the scene's.
 void Solver::add_series(double ratio_of_all) {
   const auto ratio = [&](std::uint32_t sample, int channel) {
     const double now = incoming_[sample][channel], before = incoming_before_[sample][channel];

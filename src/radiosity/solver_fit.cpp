@@ -1,7 +1,7 @@
 // Light between the samples, when the mesh is done: its triangles are asked in their middles for the light of sources,
 // which is exact there, and what they find moves the corners that interpolate. What reflects has the right power then.
 //
-// Light from all around is not asked for: in hemispheres' noise there is nothing to be found that the mesh has left.
+// Light from all around is not asked for: it took as many rays again (docs/transport.md).
 #include <algorithm>
 
 #include "radiosity/fit.h"
