@@ -23,7 +23,7 @@ struct CastShadow {
   std::uint32_t facet;
   bool back;
   Vec2 at;      ///< in the facet's plane
-  double area;  ///< of the shadow there
+  double area;  ///< of the shadow there, scene units squared
   Receiver receiver;
 };
 
@@ -32,9 +32,8 @@ struct Shadowed {
   std::uint32_t facet;
   bool back;
   Vec2 at;
-  double area;  ///< of the shadows that fall in its triangle
-  Receiver receiver;
-  Color light{0.0};
+  double area;       ///< scene units squared: of the shadows that fall in its triangle, at most the triangle's
+  Color light{0.0};  ///< irradiance, W m^-2
 };
 
 class Silhouettes {

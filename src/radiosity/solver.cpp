@@ -171,6 +171,20 @@ void Solver::shine() {
   }
 }
 
+// Of all receiving sides, scene units squared.
+double Solver::receiving_area() const {
+  double area = 0;
+  for (const Sample& sample : surface->samples()) {
+    area += sample.area;
+  }
+  return area;
+}
+
+std::uint32_t Solver::sample_of(std::uint32_t front_share, bool back) const {
+  const auto shares = surface->shares();
+  return shares[back ? shares[front_share].other_side : front_share].sample;
+}
+
 // The mean irradiance over all receiving sides, three channels as one.
 double Solver::mean_of(std::span<const Color> irradiance) const {
   double received = 0, area = 0;

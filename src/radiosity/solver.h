@@ -11,6 +11,7 @@
 // follows again.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -109,8 +110,13 @@ class Solver {
   // Runs work(index, tracer) in parallel and sums up what was done.
   template <class Work>
   void over(std::uint32_t begin, std::uint32_t end, Work&& work);
+  // Runs work(probe's index, tracer) for the next probes; whether that was all of them.
+  template <class Work>
+  bool over_probes(Work&& work);
   void count(const TransportCounters& counters);
   double mean_of(std::span<const Color> irradiance) const;
+  double receiving_area() const;
+  std::uint32_t sample_of(std::uint32_t front_share, bool back) const;
   std::uint32_t next_blocks(std::uint32_t per_thread) const;
   double unshot_luminance() const;
   void place_receivers();
@@ -182,6 +188,21 @@ void Solver::over(std::uint32_t begin, std::uint32_t end, Work&& work) {
   for (const TransportCounters& counter : counters) {
     count(counter);
   }
+}
+
+template <class Work>
+bool Solver::over_probes(Work&& work) {
+  constexpr std::uint32_t k_size = ReceiverBlocks::k_size;
+  const auto count = static_cast<std::uint32_t>((probes_.size() + k_size - 1) / k_size);
+  const std::uint32_t end = std::min(count, block_ + 4 * host.jobs.thread_count());
+  over(block_, end, [&](std::uint32_t block, Tracer& tracer) {
+    const std::size_t stop = std::min<std::size_t>(probes_.size(), std::size_t{block + 1} * k_size);
+    for (std::size_t k = std::size_t{block} * k_size; k < stop; ++k) {
+      work(k, tracer);
+    }
+  });
+  block_ = end < count ? end : 0;
+  return end == count;
 }
 
 }  // namespace radvor

@@ -32,10 +32,7 @@ void Solver::align_ties() {
 }
 
 void Solver::place_fit_probes() {
-  double area = 0;
-  for (const Sample& sample : surface->samples()) {
-    area += sample.area;
-  }
+  const double area = receiving_area();
   const std::pmr::vector<std::uint8_t> all(direct.size(), 1, &host.memory);
   const double least = std::max(k_fitted * options.tolerance * options.tolerance * area, 1e-300);
   probes_ = place_probes(*surface, least, all, visibility_->lift(), host);
@@ -51,19 +48,9 @@ void Solver::fit_between() {
     }
     place_fit_probes();
   }
-  const auto count = static_cast<std::uint32_t>((probes_.size() + ReceiverBlocks::k_size - 1) / ReceiverBlocks::k_size);
-  const std::uint32_t end = std::min(count, block_ + 4 * host.jobs.thread_count());
-  over(block_, end, [&](std::uint32_t block, Tracer& tracer) {
-    const std::size_t stop = std::min<std::size_t>(probes_.size(), std::size_t{block + 1} * ReceiverBlocks::k_size);
-    for (std::size_t k = std::size_t{block} * ReceiverBlocks::k_size; k < stop; ++k) {
-      probed_[k] = punctual_light(probes_[k].receiver, tracer);
-    }
-  });
-  block_ = end;
-  if (block_ < count) {
+  if (!over_probes([&](std::size_t k, Tracer& tracer) { probed_[k] = punctual_light(probes_[k].receiver, tracer); })) {
     return;
   }
-  block_ = 0;
   std::pmr::vector<Color> punctual(direct, &host.memory);
   const Color sky = k_pi * light_->sky_radiance();
   for (std::size_t i = 0; i < punctual.size(); ++i) {

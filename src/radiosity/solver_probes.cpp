@@ -22,29 +22,21 @@ void Solver::probe() {
   if (block_ == 0) {
     place_probes_due();
   }
-  const auto count = static_cast<std::uint32_t>((probes_.size() + ReceiverBlocks::k_size - 1) / ReceiverBlocks::k_size);
-  const std::uint32_t end = std::min(count, block_ + 4 * host.jobs.thread_count());
   const Color sky = k_pi * light_->sky_radiance();
-  over(block_, end, [&](std::uint32_t block, Tracer& tracer) {
-    const std::size_t stop = std::min<std::size_t>(probes_.size(), std::size_t{block + 1} * ReceiverBlocks::k_size);
-    for (std::size_t k = std::size_t{block} * ReceiverBlocks::k_size; k < stop; ++k) {
-      const Probe& probe = probes_[k];
-      if (looking_) {
-        const std::uint64_t seed = hash(options.seed, std::uint64_t{round_} + 1, k);
-        const std::uint32_t rays = probe_rays() * (may_see_edge_of_sky(probe.samples) ? 2 : 1);
-        const Outlook outlook =
-            hemispheres_->glance(probe.receiver, rays, seed, *surface, radiosity_, tracer, probed_[k]);
-        probed_[k] += outlook.open * sky;
-        continue;
-      }
+  const bool all = over_probes([&](std::size_t k, Tracer& tracer) {
+    const Probe& probe = probes_[k];
+    if (!looking_) {
       probed_[k] = punctual_light(probe.receiver, tracer);
+      return;
     }
+    const std::uint64_t seed = hash(options.seed, std::uint64_t{round_} + 1, k);
+    const std::uint32_t rays = probe_rays() * (may_see_edge_of_sky(probe.samples) ? 2 : 1);
+    const Outlook outlook = hemispheres_->glance(probe.receiver, rays, seed, *surface, radiosity_, tracer, probed_[k]);
+    probed_[k] += outlook.open * sky;
   });
-  block_ = end;
-  if (block_ < count) {
+  if (!all) {
     return;
   }
-  block_ = 0;
   if (round_ < 3 * surface->max_level() && raise(wrong_between())) {
     return;
   }
@@ -71,10 +63,7 @@ std::uint32_t Solver::probe_rays() const {
 }
 
 void Solver::place_probes_due() {
-  double area = 0;
-  for (const Sample& sample : surface->samples()) {
-    area += sample.area;
-  }
+  const double area = receiving_area();
   const double least = std::max(k_probed * options.tolerance * options.tolerance * area, 1e-300);
   probes_ = place_probes(*surface, least, unprobed_, visibility_->lift(), host);
   if (looking_) {
@@ -107,10 +96,8 @@ std::pmr::vector<std::uint32_t> Solver::wrong_between() const {
     std::array<std::uint32_t, 3> samples;
   };
   std::pmr::vector<Wrong> wrong(&host.memory);
-  double left = 0, area = 0;
-  for (const Sample& sample : samples) {
-    area += sample.area;
-  }
+  const double area = receiving_area();
+  double left = 0;
   const auto add = [&](double score, const std::array<std::uint32_t, 3>& about) {
     left += score;
     wrong.push_back({score, about});
@@ -131,8 +118,7 @@ std::pmr::vector<std::uint32_t> Solver::wrong_between() const {
     std::array<std::uint32_t, 3> about;
     double expected = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-      const Share& front = surface->shares()[point.shares[i]];
-      about[i] = place.back ? surface->shares()[front.other_side].sample : front.sample;
+      about[i] = sample_of(point.shares[i], place.back);
       expected += point.weights[i] * sum(direct[about[i]]) / 3;
     }
     add(score_of(sum(place.light) / 3, expected, mean, place.area), about);

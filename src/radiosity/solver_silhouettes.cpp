@@ -1,5 +1,6 @@
 // Shadows that no sample and no probe meets: found by rays from the sources, and kept until the mesh tells of them.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -38,12 +39,8 @@ void Solver::cast_shadows() {
 void Solver::judge_shadows() {
   const double mean = mean_of(direct);
   const std::pmr::vector<CastShadow> casts = silhouettes_->largest_of_each();
-  double area = 0;
-  for (const Sample& sample : surface->samples()) {
-    area += sample.area;
-  }
-  std::pmr::vector<std::uint8_t> kept(casts.size(), 0, &host.memory);
-  std::pmr::vector<Color> light(casts.size(), Color(0.0), &host.memory);
+  const double noticed = k_noticed * receiving_area();
+  std::pmr::vector<std::optional<Shadowed>> judged(casts.size(), &host.memory);
   constexpr std::uint32_t k_block = 64;
   over(0, static_cast<std::uint32_t>((casts.size() + k_block - 1) / k_block), [&](std::uint32_t block, Tracer& tracer) {
     const std::size_t stop = std::min<std::size_t>(casts.size(), std::size_t{block + 1} * k_block);
@@ -53,21 +50,22 @@ void Solver::judge_shadows() {
       const double found = sum(light_->irradiance(cast.source, cast.receiver, tracer, sight)) / 3;
       double expected = 0;
       const FacetPoint point = surface->locate(cast.facet, cast.at);
+      std::array<Vec3, 3> corners;
       for (std::size_t i = 0; i < 3; ++i) {
-        const Share& front = surface->shares()[point.shares[i]];
-        const std::uint32_t sample = cast.back ? surface->shares()[front.other_side].sample : front.sample;
+        const std::uint32_t sample = sample_of(point.shares[i], cast.back);
         expected += point.weights[i] * sum(light_->irradiance(cast.source, receivers_[sample], tracer, sight)) / 3;
+        corners[i] = surface->sites()[surface->samples()[sample].site].position;
       }
-      if (score_of(found, expected, mean, cast.area) > k_noticed * area) {
-        kept[k] = 1;
-        light[k] = punctual_light(cast.receiver, tracer);
+      const double area =
+          std::min(cast.area, 0.5 * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0])));
+      if (score_of(found, expected, mean, area) > noticed) {
+        judged[k] = Shadowed{cast.facet, cast.back, cast.at, area, punctual_light(cast.receiver, tracer)};
       }
     }
   });
-  for (std::size_t k = 0; k < casts.size(); ++k) {
-    if (kept[k] != 0) {
-      const CastShadow& cast = casts[k];
-      shadowed_.push_back({cast.facet, cast.back, cast.at, cast.area, cast.receiver, light[k]});
+  for (const std::optional<Shadowed>& place : judged) {
+    if (place) {
+      shadowed_.push_back(*place);
     }
   }
 }

@@ -125,10 +125,7 @@ TEST(Sky, RoofOpeningOfCie171Case59) {
   builder.quad({0, 4, 0}, {4, 4, 0}, {4, 4, 3}, {0, 4, 3}, black);
   builder.quad({0, 0, 0}, {0, 4, 0}, {0, 4, 3}, {0, 0, 3}, black);
   builder.quad({4, 0, 0}, {4, 0, 3}, {4, 4, 3}, {4, 4, 0}, black);
-  Light sky;
-  sky.type = LightType::sky;
-  sky.color = Color(1.0);
-  builder.scene.lights = {sky};
+  builder.under_sky(Color(1.0));
   TestBake bake(builder.take(), coarse(0.02, 0.5));
   bake.run();
   const std::array<Vec3, 4> opening = {Vec3(0, 0, 3), Vec3(0, 4, 3), Vec3(4, 4, 3), Vec3(4, 0, 3)};
@@ -163,10 +160,7 @@ TEST(Sky, LittleOfItIsNotLess) {
     builder.quad({a, 1}, {200.0 * a, 1}, {200.0 * b, 1}, {b, 1}, black);
     builder.quad({200.0 * a, 0}, {200.0 * b, 0}, {200.0 * b, 1}, {200.0 * a, 1}, black);
   }
-  Light sky;
-  sky.type = LightType::sky;
-  sky.color = Color(1.0);
-  builder.scene.lights = {sky};
+  builder.under_sky(Color(1.0));
   TestBake bake(builder.take(), coarse(0.05, 0.1));
   bake.run();
   const std::array<Vec3, 4> opening = {Vec3(-0.1, -0.1, 1), Vec3(-0.1, 0.1, 1), Vec3(0.1, 0.1, 1), Vec3(0.1, -0.1, 1)};
@@ -184,10 +178,7 @@ TEST(Sky, LittleOfItIsNotLess) {
 TEST(Sky, OpenPlainSeesAllOfIt) {
   SceneBuilder builder;
   builder.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, builder.material(Color(0.5)));
-  Light sky;
-  sky.type = LightType::sky;
-  sky.color = Color(0.25);
-  builder.scene.lights = {sky};
+  builder.under_sky(Color(0.25));
   TestBake bake(builder.take(), coarse(0.02));
   bake.run();
   for (std::size_t i = 0; i < (*bake).surface().samples().size(); ++i) {
@@ -377,10 +368,7 @@ TEST(Disable, IndirectUnderASkyWithRefinement) {
   const std::uint32_t grey = builder.material(Color(0.6));
   builder.quad({-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}, grey);
   builder.box({-0.5, -0.5, 0}, {0.5, 0.5, 1}, false, grey);
-  Light sky;
-  sky.type = LightType::sky;
-  sky.color = Color(1.0);
-  builder.scene.lights = {sky};
+  builder.under_sky(Color(1.0));
   BakeOptions options = coarse(0.05, 0.4);
   options.spacing.element_levels = 0;
   options.spacing.refines = true;

@@ -5,21 +5,10 @@
 
 #include <cmath>
 
-#include "rooms.h"
-#include "test_bake.h"
+#include "plain.h"
 
 namespace radvor {
 namespace {
-
-// A plain of 2 x 2 with some 500 samples.
-TestBake plain() {
-  SceneBuilder builder;
-  builder.quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, builder.material(Color(0.5)));
-  BakeOptions options;
-  options.spacing.patch_spacing = 0.1;
-  options.spacing.element_levels = 0;
-  return TestBake(builder.take(), options, 1);
-}
 
 struct Deviation {
   double mean = 0, rms = 0;

@@ -51,6 +51,14 @@ class SceneBuilder {
     prism({{low.x, low.y}, {high.x, low.y}, {high.x, high.y}, {low.x, high.y}}, low.z, high.z, inwards, material);
   }
 
+  /// The only light: a sky of that radiance all around, W sr^-1 m^-2.
+  void under_sky(const Color& radiance) {
+    Light sky;
+    sky.type = LightType::sky;
+    sky.color = radiance;
+    scene.lights = {sky};
+  }
+
   /// The scene with what was added as one mesh; the builder is empty after.
   Scene take() {
     scene.meshes.push_back(std::move(mesh_));

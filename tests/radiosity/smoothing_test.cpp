@@ -6,21 +6,10 @@
 #include <cmath>
 
 #include "base/hash.h"
-#include "rooms.h"
-#include "test_bake.h"
+#include "plain.h"
 
 namespace radvor {
 namespace {
-
-// A plain of 2 x 2 with some 500 samples.
-TestBake plain() {
-  SceneBuilder builder;
-  builder.quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, builder.material(Color(0.5)));
-  BakeOptions options;
-  options.spacing.patch_spacing = 0.1;
-  options.spacing.element_levels = 0;
-  return TestBake(builder.take(), options, 1);
-}
 
 double ramp(const Vec3& at) {
   return 3 + at.x - 0.5 * at.y;
