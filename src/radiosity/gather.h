@@ -1,8 +1,12 @@
 // What receivers see of the scene: rays over each one's hemisphere, whose hits are kept. Every bounce reads them again,
 // so that only the first one casts rays; the sky is in the same rays.
 //
-// A link is a hit's share of its triangle: one of its three corners, drawn by the hit's barycentric weights. So a link
-// is one number of 4 bytes and its factor 1 / rays, and radiosity is interpolated linearly on the average.
+// A link is a ray's share of the triangle that it hit: one of its three corners, drawn by the hit's barycentric
+// weights. So a link is one number of 4 bytes and its factor 1 / rays, and radiosity is interpolated linearly on the
+// average.
+//
+// Where the mesh is refined later, what a link stands for is refined with it: the ray is known by its number, its facet
+// by the link, so where the two meet needs no tracing.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +16,7 @@
 
 #include "base/host.h"
 #include "radiosity/receiver.h"
+#include "radiosity/share_changes.h"
 #include "radiosity/tracer.h"
 #include "scene/scene.h"
 #include "surface/surface.h"
@@ -46,8 +51,10 @@ class Gather {
 
   const Outlook& outlook(std::uint32_t record) const { return records_[record].outlook; }
 
-  /// After the surface has numbered its shares anew: `now` is the new number of each old one.
-  void renumber(std::span<const std::uint32_t> now);
+  /// After the surface was refined: links to shares that were divided are drawn anew. receiver and seed as given to
+  /// trace; different records may follow side by side.
+  void follow(std::uint32_t record, const Receiver& receiver, std::uint64_t seed, const Surface& surface,
+              const ShareChanges& changes);
 
   /// Irradiance from all that the record's links shoot. radiosity: one a share, W m^-2.
   Color gather(std::uint32_t record, std::span<const glm::vec3> radiosity) const;
@@ -60,7 +67,7 @@ class Gather {
   struct Record {
     explicit Record(std::pmr::memory_resource* memory) : links(memory) {}
     Outlook outlook;
-    std::pmr::vector<std::uint32_t> links;
+    std::pmr::vector<std::uint32_t> links;  // of each ray, k_none: meets nothing that shoots
   };
 
   const Scene& scene_;

@@ -26,6 +26,7 @@
 #include "radiosity/probes.h"
 #include "radiosity/receiver.h"
 #include "radiosity/receiver_blocks.h"
+#include "radiosity/share_changes.h"
 #include "radiosity/silhouettes.h"
 #include "radiosity/tracer.h"
 
@@ -82,9 +83,8 @@ class Solver {
   void begin_looking();
   void follow(std::span<const Share> before, std::span<const std::uint32_t> before_sites,
               std::span<const SampleOrigin> origins);
+  void follow_links(const ShareChanges& changes);
   void keep_interpolated(std::span<const std::uint32_t> now);
-  std::pmr::vector<std::uint32_t> shares_now(std::span<const Share> before, std::span<const std::uint32_t> before_sites,
-                                             std::span<const std::uint32_t> now) const;
   void begin_level();
   void share_out_rays();
   std::uint32_t rays_for(double area) const;

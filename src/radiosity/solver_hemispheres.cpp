@@ -142,7 +142,7 @@ void Solver::look_around() {
   stage_ = Stage::refinement;
 }
 
-// What pending samples get by one reflection of direct light.
+// What samples get by one reflection of direct light; those that have looked around before, now of the mesh as it is.
 void Solver::see_first_bounce() {
   const auto shares = surface->shares();
   radiosity_.resize(shares.size());
@@ -150,11 +150,11 @@ void Solver::see_first_bounce() {
     radiosity_[s] = glm::vec3(shares[s].albedo * direct[shares[s].sample]);
   }
   constexpr std::uint32_t k_block = 256;
-  const auto count = static_cast<std::uint32_t>(pending_.size());
+  const auto count = static_cast<std::uint32_t>(records_.size());
   host.jobs.for_each((count + k_block - 1) / k_block, [&](std::uint32_t block) {
-    for (std::uint32_t k = block * k_block; k < std::min(count, (block + 1) * k_block); ++k) {
-      if (records_[pending_[k]] != k_none) {
-        first_bounce_[pending_[k]] = hemispheres_->gather(records_[pending_[k]], radiosity_);
+    for (std::uint32_t sample = block * k_block; sample < std::min(count, (block + 1) * k_block); ++sample) {
+      if (records_[sample] != k_none) {
+        first_bounce_[sample] = hemispheres_->gather(records_[sample], radiosity_);
       }
     }
   });

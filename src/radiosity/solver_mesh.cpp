@@ -1,6 +1,7 @@
 // The mesh follows the light: sites are raised where it is too coarse, and what is known of samples goes along.
 #include <algorithm>
 
+#include "base/hash.h"
 #include "radiosity/method.h"
 #include "radiosity/refinement_plan.h"
 #include "radiosity/solver.h"
@@ -107,9 +108,23 @@ void Solver::follow(std::span<const Share> before, std::span<const std::uint32_t
   renumber(unprobed_, origins, std::uint8_t{1});
   indirect.assign(origins.size(), Color(0.0));
 
-  hemispheres_->renumber(shares_now(before, before_sites, now));
   place_receivers();
+  follow_links(follow_shares(before, before_sites, now, *surface, memory));
   blocks_.emplace(*surface, receivers_, pending_, host);
+}
+
+// What hemispheres' rays hit is refined with the mesh.
+void Solver::follow_links(const ShareChanges& changes) {
+  constexpr std::uint32_t k_block = 64;
+  const std::uint32_t count = hemispheres_->size() == 0 ? 0 : static_cast<std::uint32_t>(records_.size());
+  host.jobs.for_each((count + k_block - 1) / k_block, [&](std::uint32_t block) {
+    for (std::uint32_t sample = block * k_block; sample < std::min(count, (block + 1) * k_block); ++sample) {
+      const std::uint32_t record = records_[sample];
+      if (record != k_none) {
+        hemispheres_->follow(record, receivers_[sample], hash(options.seed, record), *surface, changes);
+      }
+    }
+  });
 }
 
 // Interpolated samples keep to their anchors. One that lost them, or became several where a facet was taken apart, is
@@ -135,47 +150,6 @@ void Solver::keep_interpolated(std::span<const std::uint32_t> now) {
       pending_.push_back(i);
     }
   }
-}
-
-// The number of each old share: the one of the same facet and side in its sample. Where a sample is no more (a facet
-// too thin to be triangulated anew takes its sectors apart), one of the same facet and side at the same site.
-std::pmr::vector<std::uint32_t> Solver::shares_now(std::span<const Share> before,
-                                                   std::span<const std::uint32_t> before_sites,
-                                                   std::span<const std::uint32_t> now) const {
-  const auto shares = surface->shares();
-  const auto samples = surface->samples();
-  std::pmr::vector<std::uint32_t> share_now(before.size(), k_none, &host.memory);
-  std::pmr::vector<std::uint32_t> orphans(&host.memory);
-  for (std::uint32_t s = 0; s < before.size(); ++s) {
-    std::uint32_t share = now[before[s].sample] == k_none ? k_none : samples[now[before[s].sample]].first_share;
-    while (share != k_none && (shares[share].facet != before[s].facet || shares[share].back != before[s].back)) {
-      share = shares[share].next_in_sample;
-    }
-    share_now[s] = share;
-    if (share == k_none) {
-      orphans.push_back(s);
-    }
-  }
-  if (orphans.empty()) {
-    return share_now;
-  }
-  std::pmr::vector<std::uint32_t> first_at_site(surface->sites().size(), k_none, &host.memory);
-  std::pmr::vector<std::uint32_t> next_at_site(shares.size(), k_none, &host.memory);
-  std::pmr::vector<std::uint32_t> any_of_facet(facets->facets.size(), k_none, &host.memory);
-  for (std::uint32_t s = 0; s < shares.size(); ++s) {
-    const std::uint32_t site = samples[shares[s].sample].site;
-    next_at_site[s] = first_at_site[site];
-    first_at_site[site] = s;
-    any_of_facet[shares[s].facet] = s;
-  }
-  for (const std::uint32_t s : orphans) {
-    std::uint32_t share = first_at_site[before_sites[before[s].sample]];
-    while (share != k_none && (shares[share].facet != before[s].facet || shares[share].back != before[s].back)) {
-      share = next_at_site[share];
-    }
-    share_now[s] = share != k_none ? share : any_of_facet[before[s].facet];
-  }
-  return share_now;
 }
 
 }  // namespace radvor

@@ -57,15 +57,21 @@ std::size_t LocatedFacet::best_triangle(const Vec2& point) const {
   return best;
 }
 
-FacetPoint LocatedFacet::locate(const Vec2& point) const {
-  FacetPoint rough;
-  if (mesh && !mesh->ties_are_aligned()) {
-    const std::uint32_t found = mesh->locate_roughly(point, rough.weights);
-    if (found != k_none) {
-      rough.shares = triangles[found];
-      return rough;
-    }
+// Only the plain triangulation can be asked that.
+std::optional<FacetPoint> LocatedFacet::find_roughly(const Vec2& point) const {
+  if (!mesh || mesh->ties_are_aligned()) {
+    return {};
   }
+  FacetPoint rough;
+  const std::uint32_t found = mesh->locate_roughly(point, rough.weights);
+  if (found == k_none) {
+    return {};
+  }
+  rough.shares = triangles[found];
+  return rough;
+}
+
+FacetPoint LocatedFacet::locate_exactly(const Vec2& point) const {
   std::size_t best = mesh ? mesh->locate(point) : best_triangle(point);
   if (mesh && mesh->ties_are_aligned()) {
     const auto first = static_cast<std::uint32_t>(best);
@@ -78,6 +84,20 @@ FacetPoint LocatedFacet::locate(const Vec2& point) const {
   }
   const ShareTriangle& found = triangles[best];
   return {found, clamped_weights(corners(found), point)};
+}
+
+FacetPoint LocatedFacet::locate(const Vec2& point) const {
+  const std::optional<FacetPoint> rough = find_roughly(point);
+  return rough ? *rough : locate_exactly(point);
+}
+
+std::optional<FacetPoint> LocatedFacet::find(const Vec2& point) const {
+  if (mesh && !mesh->ties_are_aligned()) {
+    return find_roughly(point);
+  }
+  const FacetPoint nearest = locate_exactly(point);
+  const bool inside = depth_inside(corners(nearest.shares), point) >= 0;
+  return inside ? std::optional(nearest) : std::nullopt;
 }
 
 }  // namespace radvor

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 
 #include "scene/facets.h"
@@ -22,8 +23,12 @@ struct LocatedFacet {
   std::array<Vec2, 3> corners(const ShareTriangle& triangle) const;
   /// The triangle that the point is in, or nearest to; weights of its corners, >= 0.
   FacetPoint locate(const Vec2& point) const;
+  /// Nothing where the point is in none, or too close to the border to say quickly.
+  std::optional<FacetPoint> find(const Vec2& point) const;
 
  private:
+  std::optional<FacetPoint> find_roughly(const Vec2& point) const;
+  FacetPoint locate_exactly(const Vec2& point) const;
   std::size_t best_triangle(const Vec2& point) const;
 };
 

@@ -165,6 +165,10 @@ FacetPoint Surface::locate(std::uint32_t facet, const Vec2& point) const {
   return state_->located(facet).locate(point);
 }
 
+std::optional<FacetPoint> Surface::find(std::uint32_t facet, const Vec2& point) const {
+  return state_->located(facet).find(point);
+}
+
 const Scene& Surface::scene() const {
   return state_->scene;
 }

@@ -1,0 +1,92 @@
+#include "radiosity/share_changes.h"
+
+#include <algorithm>
+
+namespace radvor {
+
+namespace {
+
+bool alike(const Share& a, const Share& b) {
+  return a.facet == b.facet && a.back == b.back;
+}
+
+// Where a share's sample is no more (a facet too thin to be triangulated anew takes its sectors apart): the share of
+// the same facet and side at the same site, or any of the facet.
+void place_orphans(std::span<const Share> before, std::span<const std::uint32_t> sites_before,
+                   std::span<const std::uint32_t> orphans, const Surface& surface,
+                   std::pmr::vector<std::uint32_t>& now) {
+  const auto shares = surface.shares();
+  const auto samples = surface.samples();
+  std::pmr::vector<std::uint32_t> first_at_site(surface.sites().size(), k_none, now.get_allocator());
+  std::pmr::vector<std::uint32_t> next_at_site(shares.size(), k_none, now.get_allocator());
+  std::pmr::vector<std::uint32_t> any_of_facet(surface.facets().facets.size(), k_none, now.get_allocator());
+  for (std::uint32_t s = 0; s < shares.size(); ++s) {
+    const std::uint32_t site = samples[shares[s].sample].site;
+    next_at_site[s] = first_at_site[site];
+    first_at_site[site] = s;
+    any_of_facet[shares[s].facet] = s;
+  }
+  for (const std::uint32_t s : orphans) {
+    std::uint32_t share = first_at_site[sites_before[before[s].sample]];
+    while (share != k_none && !alike(shares[share], before[s])) {
+      share = next_at_site[share];
+    }
+    now[s] = share != k_none ? share : any_of_facet[before[s].facet];
+  }
+}
+
+// A new site takes part in every triangle that it makes another of: so all corners of triangles that are no more are
+// corners of triangles with a new one.
+void mark_divided(std::span<const std::uint32_t> samples_now, const Surface& surface,
+                  std::pmr::vector<std::uint8_t>& divided) {
+  const auto shares = surface.shares();
+  std::pmr::vector<std::uint8_t> is_new(surface.samples().size(), 1, divided.get_allocator());
+  for (const std::uint32_t sample : samples_now) {
+    if (sample != k_none) {
+      is_new[sample] = 0;
+    }
+  }
+  for (std::uint32_t facet = 0; facet < surface.facets().facets.size(); ++facet) {
+    for (const ShareTriangle& triangle : surface.triangles(facet)) {
+      if (std::none_of(triangle.begin(), triangle.end(), [&](auto s) { return is_new[shares[s].sample] != 0; })) {
+        continue;
+      }
+      for (const std::uint32_t share : triangle) {
+        divided[share] = 1;
+        if (shares[share].other_side != k_none) {
+          divided[shares[share].other_side] = 1;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+ShareChanges follow_shares(std::span<const Share> before, std::span<const std::uint32_t> sites_before,
+                           std::span<const std::uint32_t> samples_now, const Surface& surface,
+                           std::pmr::memory_resource* memory) {
+  const auto shares = surface.shares();
+  const auto samples = surface.samples();
+  ShareChanges changes{std::pmr::vector<std::uint32_t>(before.size(), k_none, memory),
+                       std::pmr::vector<std::uint8_t>(shares.size(), 0, memory)};
+  std::pmr::vector<std::uint32_t> orphans(memory);
+  for (std::uint32_t s = 0; s < before.size(); ++s) {
+    const std::uint32_t sample = samples_now[before[s].sample];
+    std::uint32_t share = sample == k_none ? k_none : samples[sample].first_share;
+    while (share != k_none && !alike(shares[share], before[s])) {
+      share = shares[share].next_in_sample;
+    }
+    changes.now[s] = share;
+    if (share == k_none) {
+      orphans.push_back(s);
+    }
+  }
+  if (!orphans.empty()) {
+    place_orphans(before, sites_before, orphans, surface, changes.now);
+  }
+  mark_divided(samples_now, surface, changes.divided);
+  return changes;
+}
+
+}  // namespace radvor

@@ -1,0 +1,128 @@
+// Links follow the mesh: refined later or before, the same rays end at the same shares.
+#include "radiosity/gather.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "base/hash.h"
+#include "surface/made_surface.h"
+#include "surface/solids.h"
+#include "visibility/brute_force_visibility.h"
+
+namespace radvor {
+namespace {
+
+constexpr std::uint64_t k_seed = 7;
+constexpr std::uint32_t k_rays = 256;
+
+Scene room_with_floating_box() {
+  test::SceneBuilder builder(std::pmr::get_default_resource());
+  const std::uint32_t both = builder.add_material({Color(0.5), Color(0.0), true});
+  builder.box({0, 0, 0}, {2, 2, 1}, true);
+  builder.box({0.7, 0.8, 0.3}, {1.2, 1.3, 0.6}, false);
+  builder.quad({0.3, 0.3, 0.4}, {0.6, 0.3, 0.4}, {0.6, 0.6, 0.4}, {0.3, 0.6, 0.4}, both);
+  return builder.take();
+}
+
+class LinksFollow : public testing::Test {
+ protected:
+  LinksFollow()
+      : made(room_with_floating_box(), options()),
+        occluders(made.welded.triangles.size()),
+        gather(made.scene, made.facets, occluders, made.host) {
+    std::iota(occluders.begin(), occluders.end(), 0u);
+    for (const Triangle& triangle : made.welded.triangles) {
+      corners.insert(corners.end(), triangle.vertices.begin(), triangle.vertices.end());
+    }
+    visibility.emplace(Occluders{made.welded.positions, corners}, std::pmr::get_default_resource());
+    for (const Vec3& at : {Vec3(0.31, 0.37, 0), Vec3(1.83, 1.71, 0), Vec3(0.95, 1.05, 0), Vec3(0.45, 0.45, 0)}) {
+      receivers.push_back({at, at + Vec3(0, 0, visibility->lift()), Vec3(0, 0, 1)});
+    }
+    gather.add(static_cast<std::uint32_t>(2 * receivers.size()));
+  }
+
+  static SurfaceOptions options() {
+    SurfaceOptions options;
+    options.patch_spacing = 0.5;
+    options.min_spacing = 0.05;
+    return options;
+  }
+
+  void trace(std::uint32_t first_record) {
+    Tracer tracer(*visibility);
+    for (std::uint32_t r = 0; r < receivers.size(); ++r) {
+      gather.trace(first_record + r, receivers[r], k_rays, k_seed + r, made.surface, tracer);
+    }
+  }
+
+  void refine(const Vec3& around, double reach) {
+    const std::vector<Share> shares(made.surface.shares().begin(), made.surface.shares().end());
+    std::vector<std::uint32_t> sites_before, raised;
+    for (const Sample& sample : made.surface.samples()) {
+      sites_before.push_back(sample.site);
+    }
+    for (std::uint32_t s = 0; s < made.surface.sites().size(); ++s) {
+      if (glm::distance(made.surface.sites()[s].position, around) < reach) {
+        raised.push_back(s);
+      }
+    }
+    const auto origins = made.surface.refine(raised, 0);
+    std::vector<std::uint32_t> now(sites_before.size(), k_none);
+    for (std::uint32_t i = 0; i < origins.size(); ++i) {
+      if (origins[i].kept) {
+        now[origins[i].samples[0]] = i;
+      }
+    }
+    const ShareChanges changes =
+        follow_shares(shares, sites_before, now, made.surface, std::pmr::get_default_resource());
+    for (std::uint32_t r = 0; r < receivers.size(); ++r) {
+      gather.follow(r, receivers[r], k_seed + r, made.surface, changes);
+    }
+  }
+
+  // What a record gathers of shares that shoot: green and blue numbers of no pattern, red nothing from the first sites.
+  Color gathered(std::uint32_t record, std::size_t first_sites) const {
+    std::vector<glm::vec3> radiosity;
+    for (std::uint32_t s = 0; s < made.surface.shares().size(); ++s) {
+      const bool is_new = made.surface.samples()[made.surface.shares()[s].sample].site >= first_sites;
+      radiosity.emplace_back(is_new, to_unit(mix(2 * s)), to_unit(mix(2 * s + 1)));
+    }
+    return gather.gather(record, radiosity);
+  }
+
+  test::MadeSurface made;
+  std::pmr::vector<std::uint32_t> occluders, corners;
+  std::optional<BruteForceVisibility> visibility;
+  Gather gather;
+  std::vector<Receiver> receivers;
+};
+
+// But for one hit or two: where sites are cocircular a facet's diagonals may be others after a refinement.
+TEST_F(LinksFollow, AMeshThatIsRefinedLater) {
+  trace(0);
+  const auto first = static_cast<std::uint32_t>(receivers.size());
+  const std::size_t sites_before = made.surface.sites().size();
+  refine({1, 1, 1}, 0.8);
+  refine({1, 1, 1}, 0.4);
+  refine({0.45, 0.45, 0.4}, 0.3);
+  ASSERT_GT(made.surface.sites().size(), sites_before + sites_before / 2);
+  trace(first);
+  for (std::uint32_t r = 0; r < receivers.size(); ++r) {
+    const Color followed = gathered(r, sites_before), fresh = gathered(first + r, sites_before);
+    EXPECT_GT(fresh.r, 0.1) << "receiver " << r;
+    for (int channel = 0; channel < 3; ++channel) {
+      EXPECT_NEAR(followed[channel], fresh[channel], 2.0 / k_rays) << "receiver " << r;
+    }
+  }
+}
+
+TEST_F(LinksFollow, NothingMovesWhereNothingIsDivided) {
+  trace(0);
+  const Color before = gathered(1, 0);
+  refine({1, 1, 1}, 0);
+  EXPECT_EQ(gathered(1, 0), before);
+}
+
+}  // namespace
+}  // namespace radvor
