@@ -11,7 +11,7 @@ inline constexpr double k_pi = 3.14159265358979323846;
 
 /// Rays of one hemisphere, over the tolerance, where all samples have the same area; rounded up to a power of two.
 inline constexpr double k_rays = 4;
-inline constexpr double k_least_rays = 64, k_most_rays = 8192;
+inline constexpr double k_least_rays = 16, k_most_rays = 8192;
 
 /// Standard errors of a hemisphere of one ray that noise explains; they fall by N^(-3/4).
 inline constexpr double k_noise = 2;

@@ -12,10 +12,10 @@ namespace radvor {
 
 namespace {
 
-// A patch shoots by itself, once, while it has this share of all unshot power, and so many times its even share. In a
-// room of few patches none stands out, and links make every later bounce cheaper than one such shot.
+// A patch shoots by itself, once, while it has this share of all unshot power, and more than rays make out: a net of N
+// rays is off by the share of light p over sqrt(a) N^0.75 where what it comes from covers the share a of the view. So
+// in a room of few patches none stands out, and links make every later bounce cheaper than one such shot.
 constexpr double k_stands_out = 0.02;
-constexpr double k_times_even_share = 16;
 
 constexpr double k_most_ratio = 0.97;  // of a bounce to the one before, as a series
 
@@ -64,21 +64,24 @@ double Solver::unshot_luminance() const {
 // Shoots the patch of largest unshot power at all receivers, while one stands out: few rays would meet it.
 void Solver::shoot_standout() {
   const auto shares = surface->shares();
-  double total = 0, largest = 0;
+  const double area = receiving_area();
+  const double made_out = options.tolerance * std::pow(k_rays / options.tolerance, 0.75);
+  double total = 0, largest = 0, least = 1;
   std::uint32_t patch = k_none;
   for (std::uint32_t p = 0; p < surface->patch_count(); ++p) {
-    double power = 0;
+    double power = 0, extent = 0;
     for (const std::uint32_t s : surface->patch(p)) {
       power += shares[s].area * luminance(shares[s].albedo * unshot_[s]);
+      extent += shares[s].area;
     }
     total += power;
     if (power > largest && stood_out_[p] == 0) {
       largest = power;
+      least = std::max(k_stands_out, made_out * std::sqrt(extent / area));
       patch = p;
     }
   }
-  const double even_share = 1.0 / std::max(1u, surface->patch_count());
-  if (patch == k_none || largest < std::max(k_stands_out, k_times_even_share * even_share) * total) {
+  if (patch == k_none || largest < least * total) {
     stage_ = Stage::bounces;
     return;
   }
