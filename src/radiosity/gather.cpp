@@ -13,7 +13,8 @@ namespace radvor {
 namespace {
 
 // The corner of a hit's triangle that a ray's link stands for: drawn by the weights, with the golden ratio's multiples,
-// which are spread evenly whatever their number.
+// which are spread evenly whatever their number. Corners are taken from the lowest share on, since their order in a
+// triangle may turn when its facet is triangulated anew, and the ray is to draw the same.
 class Draw {
  public:
   explicit Draw(std::uint64_t seed) : first_(to_unit(mix(seed + 1))) {}
@@ -22,7 +23,9 @@ class Draw {
     constexpr double k_golden = 0.6180339887498949;
     const double turns = first_ + (ray + 1) * k_golden;
     const double draw = turns - std::floor(turns);
-    return point.shares[draw < point.weights[0] ? 0 : draw < point.weights[0] + point.weights[1] ? 1 : 2];
+    const auto lowest = std::min_element(point.shares.begin(), point.shares.end());
+    const std::size_t a = static_cast<std::size_t>(lowest - point.shares.begin()), b = (a + 1) % 3, c = (a + 2) % 3;
+    return point.shares[draw < point.weights[a] ? a : draw < point.weights[a] + point.weights[b] ? b : c];
   }
 
  private:
@@ -78,6 +81,9 @@ Outlook Gather::look(const Receiver& receiver, std::uint32_t ray_count, std::uin
 void Gather::trace(std::uint32_t index, const Receiver& receiver, std::uint32_t ray_count, std::uint64_t seed,
                    const Surface& surface, Tracer& tracer) {
   Record& record = records_[index];
+  record.from = receiver.lifted;
+  record.normal = receiver.normal;
+  record.seed = seed;
   record.links.assign(ray_count, k_none);
   record.outlook = look(receiver, ray_count, seed, surface, tracer,
                         [&](std::uint32_t ray, std::uint32_t share) { record.links[ray] = share; });
@@ -92,32 +98,38 @@ Outlook Gather::glance(const Receiver& receiver, std::uint32_t ray_count, std::u
   return outlook;
 }
 
-void Gather::follow(std::uint32_t index, const Receiver& receiver, std::uint64_t seed, const Surface& surface,
-                    const ShareChanges& changes) {
+void Gather::follow(const Surface& surface, const ShareChanges& changes) {
+  constexpr std::uint32_t k_block = 64;
+  host_.jobs.for_each((size() + k_block - 1) / k_block, [&](std::uint32_t block) {
+    for (std::uint32_t index = block * k_block; index < std::min(size(), (block + 1) * k_block); ++index) {
+      follow(records_[index], surface, changes);
+    }
+  });
+}
+
+void Gather::follow(Record& record, const Surface& surface, const ShareChanges& changes) const {
   const auto shares = surface.shares();
-  const Net net(seed);
-  const Basis basis(receiver.normal);
-  const Draw draw(seed);
-  std::pmr::vector<std::uint32_t>& links = records_[index].links;
-  for (std::uint32_t ray = 0; ray < links.size(); ++ray) {
-    if (links[ray] == k_none) {
+  const Net net(record.seed);
+  const Basis basis(record.normal);
+  const Draw draw(record.seed);
+  for (std::uint32_t ray = 0; ray < record.links.size(); ++ray) {
+    std::uint32_t& link = record.links[ray];
+    if (link == k_none) {
       continue;
     }
-    const std::uint32_t share = changes.now[links[ray]];
-    links[ray] = share;
-    if (changes.divided[share] == 0) {
+    link = changes.now[link];
+    if (changes.divided[link] == 0) {
       continue;
     }
-    const Frame& frame = facets_.facets[shares[share].facet].frame;
+    const Share& share = shares[link];
+    const Frame& frame = facets_.facets[share.facet].frame;
     const Vec3 along = direction(basis, net.point(ray));
-    // The receiver's normal may have turned a little with its cell: a ray that leads beside the facet now keeps its
-    // link.
-    const double distance = glm::dot(frame.origin - receiver.lifted, frame.normal) / glm::dot(along, frame.normal);
+    const double distance = glm::dot(frame.origin - record.from, frame.normal) / glm::dot(along, frame.normal);
     if (distance > 0 && distance < std::numeric_limits<double>::infinity()) {
-      const Vec2 hit = frame.to_plane(receiver.lifted + distance * along);
-      if (const std::optional<FacetPoint> point = surface.find(shares[share].facet, hit)) {
+      const Vec2 hit = frame.to_plane(record.from + distance * along);
+      if (const std::optional<FacetPoint> point = surface.find(share.facet, hit)) {
         const std::uint32_t front = draw.share(*point, ray);
-        links[ray] = shares[share].back ? shares[front].other_side : front;
+        link = share.back ? shares[front].other_side : front;
       }
     }
   }
@@ -136,6 +148,20 @@ Color Gather::gather(std::uint32_t index, std::span<const glm::vec3> radiosity) 
     sum[2] += sent.b;
   }
   return record.outlook.weight * Color(sum[0], sum[1], sum[2]);
+}
+
+double Gather::spread(std::uint32_t index, std::span<const glm::vec3> radiosity) const {
+  double sum = 0, squares = 0;
+  for (const std::uint32_t share : records_[index].links) {
+    if (share != k_none) {
+      const glm::vec3& sent = radiosity[share];
+      const double all = static_cast<double>(sent.r) + sent.g + sent.b;
+      sum += all;
+      squares += all * all;
+    }
+  }
+  const double weight = records_[index].outlook.weight, mean = sum * weight;
+  return mean > 0 ? std::sqrt(std::max(0.0, squares * weight - mean * mean)) / mean : 0;
 }
 
 }  // namespace radvor

@@ -51,21 +51,28 @@ class Gather {
 
   const Outlook& outlook(std::uint32_t record) const { return records_[record].outlook; }
 
-  /// After the surface was refined: links to shares that were divided are drawn anew. receiver and seed as given to
-  /// trace; different records may follow side by side.
-  void follow(std::uint32_t record, const Receiver& receiver, std::uint64_t seed, const Surface& surface,
-              const ShareChanges& changes);
+  /// After the surface was refined: links to shares that were divided are drawn anew.
+  void follow(const Surface& surface, const ShareChanges& changes);
 
   /// Irradiance from all that the record's links shoot. radiosity: one a share, W m^-2.
   Color gather(std::uint32_t record, std::span<const glm::vec3> radiosity) const;
 
+  /// How much what the record's rays bring differs from ray to ray: the standard deviation over the mean, all channels
+  /// as one; 0 where they bring nothing.
+  double spread(std::uint32_t record, std::span<const glm::vec3> radiosity) const;
+
  private:
+  struct Record;
+
+  void follow(Record& record, const Surface& surface, const ShareChanges& changes) const;
   template <class OnLink>
   Outlook look(const Receiver& receiver, std::uint32_t ray_count, std::uint64_t seed, const Surface& surface,
                Tracer& tracer, OnLink&& on_link) const;
 
   struct Record {
     explicit Record(std::pmr::memory_resource* memory) : links(memory) {}
+    Vec3 from{0.0}, normal{0.0};  // of the hemisphere: its rays must be known again
+    std::uint64_t seed = 0;
     Outlook outlook;
     std::pmr::vector<std::uint32_t> links;  // of each ray, k_none: meets nothing that shoots
   };

@@ -13,25 +13,30 @@ bool alike(const Share& a, const Share& b) {
 // Where a share's sample is no more (a facet too thin to be triangulated anew takes its sectors apart): the share of
 // the same facet and side at the same site, or any of the facet.
 void place_orphans(std::span<const Share> before, std::span<const std::uint32_t> sites_before,
-                   std::span<const std::uint32_t> orphans, const Surface& surface,
-                   std::pmr::vector<std::uint32_t>& now) {
+                   std::span<const std::uint32_t> orphans, const Surface& surface, ShareChanges& changes) {
   const auto shares = surface.shares();
   const auto samples = surface.samples();
-  std::pmr::vector<std::uint32_t> first_at_site(surface.sites().size(), k_none, now.get_allocator());
-  std::pmr::vector<std::uint32_t> next_at_site(shares.size(), k_none, now.get_allocator());
-  std::pmr::vector<std::uint32_t> any_of_facet(surface.facets().facets.size(), k_none, now.get_allocator());
+  std::pmr::vector<std::uint32_t> first_at_site(surface.sites().size(), k_none, changes.now.get_allocator());
+  std::pmr::vector<std::uint32_t> next_at_site(shares.size(), k_none, changes.now.get_allocator());
+  std::pmr::vector<std::uint32_t> any_of_facet(surface.facets().facets.size(), k_none, changes.now.get_allocator());
+  std::pmr::vector<std::uint8_t> taken_apart(any_of_facet.size(), 0, changes.now.get_allocator());
   for (std::uint32_t s = 0; s < shares.size(); ++s) {
     const std::uint32_t site = samples[shares[s].sample].site;
     next_at_site[s] = first_at_site[site];
     first_at_site[site] = s;
-    any_of_facet[shares[s].facet] = s;
+    any_of_facet[shares[s].facet] = shares[s].back ? any_of_facet[shares[s].facet] : s;
   }
   for (const std::uint32_t s : orphans) {
     std::uint32_t share = first_at_site[sites_before[before[s].sample]];
     while (share != k_none && !alike(shares[share], before[s])) {
       share = next_at_site[share];
     }
-    now[s] = share != k_none ? share : any_of_facet[before[s].facet];
+    const std::uint32_t front = any_of_facet[before[s].facet];
+    changes.now[s] = share != k_none ? share : before[s].back ? shares[front].other_side : front;
+    taken_apart[before[s].facet] = 1;
+  }
+  for (std::uint32_t s = 0; s < shares.size(); ++s) {
+    changes.divided[s] |= taken_apart[shares[s].facet];
   }
 }
 
@@ -83,7 +88,7 @@ ShareChanges follow_shares(std::span<const Share> before, std::span<const std::u
     }
   }
   if (!orphans.empty()) {
-    place_orphans(before, sites_before, orphans, surface, changes.now);
+    place_orphans(before, sites_before, orphans, surface, changes);
   }
   mark_divided(samples_now, surface, changes.divided);
   return changes;

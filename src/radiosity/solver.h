@@ -26,7 +26,6 @@
 #include "radiosity/probes.h"
 #include "radiosity/receiver.h"
 #include "radiosity/receiver_blocks.h"
-#include "radiosity/share_changes.h"
 #include "radiosity/silhouettes.h"
 #include "radiosity/tracer.h"
 
@@ -83,7 +82,6 @@ class Solver {
   void begin_looking();
   void follow(std::span<const Share> before, std::span<const std::uint32_t> before_sites,
               std::span<const SampleOrigin> origins);
-  void follow_links(const ShareChanges& changes);
   void keep_interpolated(std::span<const std::uint32_t> now);
   void begin_level();
   void share_out_rays();
@@ -98,6 +96,7 @@ class Solver {
   bool begin_bounce();
   void add_series(double ratio_of_all);
   void bounce();
+  double noise_of(std::uint32_t record, double spread) const;
   void settle_noise();
   void align_ties();
   void place_fit_probes();

@@ -61,12 +61,12 @@ double Solver::unshot_luminance() const {
   return power;
 }
 
-// Shoots the patch of largest unshot power at all receivers, while one stands out: few rays would meet it.
+// Shoots the patch that stands out farthest at all receivers, while one does: few rays would meet it.
 void Solver::shoot_standout() {
   const auto shares = surface->shares();
   const double area = receiving_area();
   const double made_out = options.tolerance * std::pow(k_rays / options.tolerance, 0.75);
-  double total = 0, largest = 0, least = 1;
+  double total = 0, farthest = 0;
   std::uint32_t patch = k_none;
   for (std::uint32_t p = 0; p < surface->patch_count(); ++p) {
     double power = 0, extent = 0;
@@ -75,13 +75,13 @@ void Solver::shoot_standout() {
       extent += shares[s].area;
     }
     total += power;
-    if (power > largest && stood_out_[p] == 0) {
-      largest = power;
-      least = std::max(k_stands_out, made_out * std::sqrt(extent / area));
+    const double out = power / std::max(k_stands_out, made_out * std::sqrt(extent / area));
+    if (out > farthest && stood_out_[p] == 0) {
+      farthest = out;
       patch = p;
     }
   }
-  if (patch == k_none || largest < least * total) {
+  if (patch == k_none || farthest < total) {
     stage_ = Stage::bounces;
     return;
   }

@@ -1,7 +1,6 @@
 // The mesh follows the light: sites are raised where it is too coarse, and what is known of samples goes along.
 #include <algorithm>
 
-#include "base/hash.h"
 #include "radiosity/method.h"
 #include "radiosity/refinement_plan.h"
 #include "radiosity/solver.h"
@@ -109,22 +108,10 @@ void Solver::follow(std::span<const Share> before, std::span<const std::uint32_t
   indirect.assign(origins.size(), Color(0.0));
 
   place_receivers();
-  follow_links(follow_shares(before, before_sites, now, *surface, memory));
+  if (hemispheres_->size() > 0) {
+    hemispheres_->follow(*surface, follow_shares(before, before_sites, now, *surface, memory));
+  }
   blocks_.emplace(*surface, receivers_, pending_, host);
-}
-
-// What hemispheres' rays hit is refined with the mesh.
-void Solver::follow_links(const ShareChanges& changes) {
-  constexpr std::uint32_t k_block = 64;
-  const std::uint32_t count = hemispheres_->size() == 0 ? 0 : static_cast<std::uint32_t>(records_.size());
-  host.jobs.for_each((count + k_block - 1) / k_block, [&](std::uint32_t block) {
-    for (std::uint32_t sample = block * k_block; sample < std::min(count, (block + 1) * k_block); ++sample) {
-      const std::uint32_t record = records_[sample];
-      if (record != k_none) {
-        hemispheres_->follow(record, receivers_[sample], hash(options.seed, record), *surface, changes);
-      }
-    }
-  });
 }
 
 // Interpolated samples keep to their anchors. One that lost them, or became several where a facet was taken apart, is

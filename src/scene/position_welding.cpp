@@ -20,10 +20,10 @@ double precision_of(const Transform& t, const Vec3& p) {
   constexpr double k_float = 0x1p-24;
   constexpr double k_double = 0x1p-51;
   Vec3 moved;
-  for (std::size_t row = 0; row < 3; ++row) {
-    const double* r = t.data() + 4 * row;
+  for (glm::length_t row = 0; row < 3; ++row) {
+    const double* r = t.data() + std::size_t{4} * static_cast<std::size_t>(row);
     const double terms = std::abs(r[0] * p.x) + std::abs(r[1] * p.y) + std::abs(r[2] * p.z);
-    moved[static_cast<int>(row)] = terms * k_float + (terms + std::abs(r[3])) * k_double;
+    moved[row] = terms * k_float + (terms + std::abs(r[3])) * k_double;
   }
   return length(moved);
 }

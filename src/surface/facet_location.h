@@ -23,7 +23,7 @@ struct LocatedFacet {
   std::array<Vec2, 3> corners(const ShareTriangle& triangle) const;
   /// The triangle that the point is in, or nearest to; weights of its corners, >= 0.
   FacetPoint locate(const Vec2& point) const;
-  /// Nothing where the point is in none, or too close to the border to say quickly.
+  /// Nothing where the point is in none, or it takes long to say.
   std::optional<FacetPoint> find(const Vec2& point) const;
 
  private:

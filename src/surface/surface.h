@@ -149,7 +149,7 @@ class Surface {
 
   /// The triangle of a facet at a point of its plane (the nearest where rounding puts the point outside).
   FacetPoint locate(std::uint32_t facet, const Vec2& point) const;
-  /// The same; nothing where the point is beside the facet, or too close to its border to say quickly.
+  /// The same; nothing where the point is beside the facet, or it takes long to say.
   std::optional<FacetPoint> find(std::uint32_t facet, const Vec2& point) const;
 
   const Scene& scene() const;

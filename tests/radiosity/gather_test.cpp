@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
+#include <optional>
+#include <vector>
 
 #include "base/hash.h"
 #include "surface/made_surface.h"
@@ -25,9 +28,9 @@ Scene room_with_floating_box() {
   return builder.take();
 }
 
-class LinksFollow : public testing::Test {
+class Links : public testing::Test {
  protected:
-  LinksFollow()
+  Links()
       : made(room_with_floating_box(), options()),
         occluders(made.welded.triangles.size()),
         gather(made.scene, made.facets, occluders, made.host) {
@@ -76,9 +79,7 @@ class LinksFollow : public testing::Test {
     }
     const ShareChanges changes =
         follow_shares(shares, sites_before, now, made.surface, std::pmr::get_default_resource());
-    for (std::uint32_t r = 0; r < receivers.size(); ++r) {
-      gather.follow(r, receivers[r], k_seed + r, made.surface, changes);
-    }
+    gather.follow(made.surface, changes);
   }
 
   // What a record gathers of shares that shoot: green and blue numbers of no pattern, red nothing from the first sites.
@@ -98,8 +99,7 @@ class LinksFollow : public testing::Test {
   std::vector<Receiver> receivers;
 };
 
-// But for one hit or two: where sites are cocircular a facet's diagonals may be others after a refinement.
-TEST_F(LinksFollow, AMeshThatIsRefinedLater) {
+TEST_F(Links, FollowAMeshThatIsRefinedLater) {
   trace(0);
   const auto first = static_cast<std::uint32_t>(receivers.size());
   const std::size_t sites_before = made.surface.sites().size();
@@ -112,16 +112,48 @@ TEST_F(LinksFollow, AMeshThatIsRefinedLater) {
     const Color followed = gathered(r, sites_before), fresh = gathered(first + r, sites_before);
     EXPECT_GT(fresh.r, 0.1) << "receiver " << r;
     for (int channel = 0; channel < 3; ++channel) {
-      EXPECT_NEAR(followed[channel], fresh[channel], 2.0 / k_rays) << "receiver " << r;
+      EXPECT_DOUBLE_EQ(followed[channel], fresh[channel]) << "receiver " << r;
     }
   }
 }
 
-TEST_F(LinksFollow, NothingMovesWhereNothingIsDivided) {
+// The floor is refined, which no receiver on it sees: all numbers change, no link does.
+TEST_F(Links, StayWhereNothingIsDivided) {
+  const auto gathered_by_place = [&](std::uint32_t record) {
+    std::vector<glm::vec3> radiosity;
+    for (const Share& share : made.surface.shares()) {
+      const std::uint64_t site = made.surface.samples()[share.sample].site;
+      radiosity.emplace_back(to_unit(mix(site << 20 | std::uint64_t{share.facet} << 1 | (share.back ? 1 : 0))));
+    }
+    return gather.gather(record, radiosity);
+  };
   trace(0);
-  const Color before = gathered(1, 0);
-  refine({1, 1, 1}, 0);
-  EXPECT_EQ(gathered(1, 0), before);
+  const std::size_t shares_before = made.surface.shares().size();
+  std::vector<Color> before;
+  for (std::uint32_t r = 0; r < receivers.size(); ++r) {
+    before.push_back(gathered_by_place(r));
+  }
+  refine({1, 0.5, 0}, 0.25);
+  ASSERT_GT(made.surface.shares().size(), shares_before);
+  for (std::uint32_t r = 0; r < receivers.size(); ++r) {
+    EXPECT_EQ(gathered_by_place(r), before[r]) << "receiver " << r;
+  }
+}
+
+// Where a ray brings 1 or nothing.
+TEST_F(Links, SpreadIsThatOfABernoulliTrial) {
+  trace(0);
+  std::vector<glm::vec3> all(made.surface.shares().size(), glm::vec3(1)), some = all, none(all.size(), glm::vec3(0));
+  for (std::uint32_t s = 0; s < some.size(); ++s) {
+    some[s] = glm::vec3(to_unit(mix(s)) < 0.2);
+  }
+  for (std::uint32_t r = 0; r < receivers.size(); ++r) {
+    EXPECT_NEAR(gather.spread(r, all), 0, 1e-6);
+    EXPECT_EQ(gather.spread(r, none), 0);
+    const double part = gather.gather(r, some).g;
+    ASSERT_GT(part, 0);
+    EXPECT_NEAR(gather.spread(r, some), std::sqrt((1 - part) / part), 1e-9);
+  }
 }
 
 }  // namespace

@@ -90,15 +90,15 @@ TEST(Reflection, OfABrightGradientNearBy) {
   EXPECT_GT(std::abs(constant - exact), 0.3 * exact);  // what the floor as one patch of constant light would give
 }
 
-// Triangles of no neighbours, scattered in a ball under a sky.
+// Triangles of no neighbours, scattered in a cube under a sky.
 Scene confetti(std::uint32_t count) {
   SceneBuilder builder;
   const std::uint32_t grey = builder.material(Color(0.7));
   auto random = [draw = std::uint64_t{0}]() mutable { return 2 * to_unit(mix(++draw)) - 1; };
   const double size = 2 / std::cbrt(count);
   for (std::uint32_t i = 0; i < count; ++i) {
-    const Vec3 at(random(), random(), random());
-    const Vec3 along = size * Vec3(random(), random(), random()), beside = size * Vec3(random(), random(), random());
+    const Vec3 at{random(), random(), random()};
+    const Vec3 along = size * Vec3{random(), random(), random()}, beside = size * Vec3{random(), random(), random()};
     builder.triangle(at, at + along, at + beside, grey);
   }
   builder.under_sky(Color(1.0));
