@@ -30,6 +30,11 @@ Vec3 centre(const std::array<Vec3, 3>& t) {
 constexpr std::size_t k_max_clipped = 64;  // occluders; rays where there are more
 constexpr std::size_t k_few_clipped = 12;  // exact without any ray; behind a crowd sixteen blocked rays mean dark
 constexpr int k_max_depth = 7;
+// Where rays disagree, of the tolerance: a part worth less stays whole. A penumbra has some 2^depth such parts with
+// independent errors, of which a fraction is in doubt.
+constexpr double k_may_stay = 3;
+// Of the tolerance: what is worth less is not clipped, but asked by rays.
+constexpr double k_clipped = 0.25;
 constexpr std::size_t k_stack = 3 * k_max_depth + 5;
 
 // Up to four parts of one emitter, seen together: 4 rays each make one packet of 16.
@@ -88,10 +93,10 @@ Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tr
     ++tracer.counters.skipped_facing;
     return Color(0.0);
   }
-  // Form factors relative to the mean irradiance: where rays disagree, a part stays whole when it is worth less than
-  // this. A penumbra has some 2^depth such parts with independent errors, so far less than their sum is lost.
-  const double may_stay = 1.0 * accuracy.tolerance * accuracy.mean_irradiance / luminance(emitter.radiosity);
-  if (occluders != nullptr && whole > 0.25 * may_stay) {  // exact, and cheaper than the rays of a penumbra
+  // A form factor that is worth the tolerance.
+  const double tolerable = accuracy.tolerance * accuracy.mean_irradiance / luminance(emitter.radiosity);
+  const double may_stay = k_may_stay * tolerable;
+  if (occluders != nullptr && whole > k_clipped * tolerable) {  // exact, and cheaper than the rays of a penumbra
     const auto clip = [&](std::size_t most) {
       return clipped_form_factor(receiver, emitter.corners, emitter.normal, whole, most, tracer, *occluders);
     };

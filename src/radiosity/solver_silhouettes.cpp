@@ -34,33 +34,55 @@ void Solver::cast_shadows() {
   }
 }
 
-// Where the corners of a shadow's triangle do not tell of it by themselves. Of its source alone first: what most
-// shadows fall in is dark already.
+// Where the corners of a shadow's triangle do not tell of it by themselves. No shadow takes more than the mesh has
+// there: that alone, without a ray, settles most.
 void Solver::judge_shadows() {
   const double mean = mean_of(direct);
   const std::pmr::vector<CastShadow> casts = silhouettes_->largest_of_each();
   const double noticed = k_noticed * receiving_area();
   std::pmr::vector<std::optional<Shadowed>> judged(casts.size(), &host.memory);
+  const auto judge = [&](const CastShadow& cast, Tracer& tracer) -> std::optional<Shadowed> {
+    const FacetPoint point = surface->locate(cast.facet, cast.at);
+    std::array<std::uint32_t, 3> around;
+    std::array<Vec3, 3> corners;
+    double lit = 0;  // by all sources
+    for (std::size_t i = 0; i < 3; ++i) {
+      around[i] = sample_of(point.shares[i], cast.back);
+      corners[i] = surface->sites()[surface->samples()[around[i]].site].position;
+      lit += point.weights[i] * sum(direct[around[i]]) / 3;
+    }
+    const double area =
+        std::min(cast.area, 0.5 * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0])));
+    const auto matters = [&](double found, double expected) {
+      return expected > found && score_of(found, expected, mean, area) > noticed;
+    };
+    const auto from_source = [&](const Receiver& receiver) {
+      Sight sight;
+      return sum(light_->irradiance(cast.source, receiver, tracer, sight)) / 3;
+    };
+    if (!matters(0, lit)) {
+      return {};
+    }
+    const double found = from_source(cast.receiver);
+    if (!matters(found, lit)) {
+      return {};
+    }
+    if (light_->source_count() > 1) {
+      double expected = 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        expected += point.weights[i] * from_source(receivers_[around[i]]);
+      }
+      if (!matters(found, expected)) {
+        return {};
+      }
+    }
+    return Shadowed{cast.facet, cast.back, cast.at, area, punctual_light(cast.receiver, tracer)};
+  };
   constexpr std::uint32_t k_block = 64;
   over(0, static_cast<std::uint32_t>((casts.size() + k_block - 1) / k_block), [&](std::uint32_t block, Tracer& tracer) {
     const std::size_t stop = std::min<std::size_t>(casts.size(), std::size_t{block + 1} * k_block);
     for (std::size_t k = std::size_t{block} * k_block; k < stop; ++k) {
-      const CastShadow& cast = casts[k];
-      Sight sight;
-      const double found = sum(light_->irradiance(cast.source, cast.receiver, tracer, sight)) / 3;
-      double expected = 0;
-      const FacetPoint point = surface->locate(cast.facet, cast.at);
-      std::array<Vec3, 3> corners;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::uint32_t sample = sample_of(point.shares[i], cast.back);
-        expected += point.weights[i] * sum(light_->irradiance(cast.source, receivers_[sample], tracer, sight)) / 3;
-        corners[i] = surface->sites()[surface->samples()[sample].site].position;
-      }
-      const double area =
-          std::min(cast.area, 0.5 * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0])));
-      if (score_of(found, expected, mean, area) > noticed) {
-        judged[k] = Shadowed{cast.facet, cast.back, cast.at, area, punctual_light(cast.receiver, tracer)};
-      }
+      judged[k] = judge(casts[k], tracer);
     }
   });
   for (const std::optional<Shadowed>& place : judged) {

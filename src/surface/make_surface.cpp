@@ -55,7 +55,6 @@ class SurfaceMaker {
     place_border_sites();
     fill_shares();
     make_samples(parts_);
-    make_patches(parts_);
   }
 
   std::pmr::vector<SampleOrigin> remake(const ChangedFacets& changed) {
@@ -70,7 +69,6 @@ class SurfaceMaker {
     copy_shares(before);
     fill_shares();
     make_samples(parts_);
-    make_patches(parts_);
     auto origins = find_origins(parts_, before, facets_);
     for (const std::uint32_t mesh : retired_) {
       parts_.meshes[mesh].reset();
@@ -263,7 +261,7 @@ class SurfaceMaker {
       for (std::uint32_t k = 0; k < count; ++k) {
         Share& share = parts_.shares[record.first_share + k];
         share = before.shares[from + k];
-        share.sample = share.patch = share.next_in_sample = k_none;
+        share.sample = share.next_in_sample = k_none;
         if (share.other_side != k_none) {
           share.other_side += record.first_share - from;
         }

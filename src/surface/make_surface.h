@@ -25,7 +25,7 @@ struct ChangedFacets {
   std::pmr::vector<InnerSite> inner;
 };
 
-/// Makes the changed facets' triangles, and all shares, samples and patches. Returns an origin for each sample.
+/// Makes the changed facets' triangles, and all shares and samples. Returns an origin for each sample.
 std::pmr::vector<SampleOrigin> remake_surface(SurfaceParts& parts, const ChangedFacets& changed);
 
 }  // namespace radvor

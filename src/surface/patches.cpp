@@ -19,6 +19,9 @@ class PatchMaker {
   explicit PatchMaker(SurfaceParts& parts) : parts_(parts), members_(parts.memory), ranges_(parts.memory) {}
 
   void run() {
+    for (Share& share : parts_.shares) {
+      share.patch = k_none;
+    }
     for (std::uint32_t facet = 0; facet < parts_.records.size(); ++facet) {
       const FacetRecord& record = parts_.records[facet];
       if (record.first_share != k_none) {
