@@ -1,14 +1,23 @@
 #include "radiosity/smoothing.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "radiosity/method.h"
+#include "radiosity/sample_neighbours.h"
+#include "radiosity/strata.h"
 
 namespace radvor {
 
 namespace {
 
-constexpr double k_explained = 2.5;  // standard errors
+constexpr int k_passes = 3;
+constexpr int k_rings = 2;            // of neighbours that are asked what noise there is
+constexpr double k_explained = 3.5;   // standard errors
+constexpr double k_bend = 10;         // of the value, where a neighbour is as far away as what is seen
+constexpr double k_alike_bend = 0.1;  // to this bend neighbours see the same, and know what noise there is
+constexpr std::uint32_t k_block = 512;
 
 // Sums for the plane value + a x + b y through points about (0, 0), weighted.
 struct Fit {
@@ -27,100 +36,143 @@ struct Fit {
     vy += weight * at.y * value;
   }
 
-  // By Cramer's rule; false where the points lie on a line, or nearly.
-  bool centre(Color& value) const {
+  // By Cramer's rule; false where the points lie on a line, or nearly. variance: of the value, where that of each point
+  // is one over its weight.
+  bool centre(Color& value, double& variance) const {
     const double a = xx * yy - xy * xy, b = xy * y - x * yy, c = x * xy - xx * y;
     const double determinant = w * a + x * b + y * c;
     if (!(determinant > 1e-3 * w * xx * yy)) {
       return false;
     }
     value = (a * v + b * vx + c * vy) / determinant;
+    variance = a / determinant;
     return true;
   }
 };
 
-class FacetSmoother {
+class Smoother {
  public:
-  FacetSmoother(const Surface& surface, std::span<const Certainty> certain, std::span<const Color> values,
-                std::span<Color> smoothed, std::pmr::memory_resource* memory)
-      : surface_(surface), certain_(certain), values_(values), smoothed_(smoothed), fits_(memory) {}
+  Smoother(const Surface& surface, std::span<const Certainty> certain, double most_bend, std::span<Color> values,
+           Host& host)
+      : sites_(surface.sites()),
+        samples_(surface.samples()),
+        certain_(certain),
+        most_bend_(most_bend),
+        values_(values),
+        neighbours_(surface, host),
+        original_(values.begin(), values.end(), &host.memory),
+        before_(&host.memory),
+        pooled_(values.size(), &host.memory),
+        noise_(&host.memory),
+        noise_before_(&host.memory),
+        host_(host) {}
 
-  void smooth(std::uint32_t facet, bool back) {
-    const auto triangles = surface_.triangles(facet);
-    const auto shares = surface_.shares();
-    const auto samples = surface_.samples();
-    const auto sites = surface_.sites();
-    const Frame& frame = surface_.facets().facets[facet].frame;
-    if (triangles.empty() || (back && shares[triangles[0][0]].other_side == k_none)) {
-      return;
-    }
-    std::uint32_t first = triangles[0][0], last = first;
-    for (const ShareTriangle& triangle : triangles) {
-      for (const std::uint32_t share : triangle) {
-        first = std::min(first, share);
-        last = std::max(last, share);
-      }
-    }
-    fits_.assign(last - first + 1, Fit{});
-    const auto sample_of = [&](std::uint32_t share) { return shares[back ? shares[share].other_side : share].sample; };
-    for (const ShareTriangle& triangle : triangles) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t own = sample_of(triangle[k]);
-        const Vec3& here = sites[samples[own].site].position;
-        for (const std::size_t other : {(k + 1) % 3, (k + 2) % 3}) {
-          const std::uint32_t neighbour = sample_of(triangle[other]);
-          const Vec3 apart = sites[samples[neighbour].site].position - here;
-          const double reach = std::min(certain_[own].reach, certain_[neighbour].reach);
-          const double weight = 1 - glm::length(apart) / std::max(reach, 1e-300);
-          if (weight > 0) {  // interior edges come twice: half a weight each
-            fits_[triangle[k] - first].add(0.5 * weight, {glm::dot(apart, frame.u), glm::dot(apart, frame.v)},
-                                           values_[neighbour]);
-          }
+  void run() {
+    pool_noise();
+    noise_ = pooled_;
+    for (int pass = 0; pass < k_passes; ++pass) {
+      before_.assign(values_.begin(), values_.end());
+      noise_before_ = noise_;
+      for_each_sample([&](std::uint32_t i) {
+        if (!certain_[i].settled && pooled_[i] > 0) {
+          move(i);
         }
-      }
-    }
-    for (std::uint32_t share = first; share <= last; ++share) {
-      const std::uint32_t sample = sample_of(share);
-      Fit& fit = fits_[share - first];
-      const bool shared = shares[samples[sample].first_share].next_in_sample != k_none;
-      if (fit.w == 0 || shared || certain_[sample].noise <= 0) {
-        continue;
-      }
-      fit.add(1, Vec2(0.0), values_[sample]);
-      Color value;
-      if (!fit.centre(value)) {
-        continue;
-      }
-      for (int channel = 0; channel < 3; ++channel) {
-        const double own = values_[sample][channel];
-        if (std::abs(value[channel] - own) <= k_explained * certain_[sample].noise * std::max(own, value[channel])) {
-          smoothed_[sample][channel] = std::max(0.0, value[channel]);
-        }
-      }
+      });
     }
   }
 
  private:
-  const Surface& surface_;
+  template <class OnSample>
+  void for_each_sample(OnSample&& on_sample) {
+    const auto count = static_cast<std::uint32_t>(values_.size());
+    host_.jobs.for_each((count + k_block - 1) / k_block, [&](std::uint32_t block) {
+      for (std::uint32_t i = block * k_block; i < std::min(count, (block + 1) * k_block); ++i) {
+        on_sample(i);
+      }
+    });
+  }
+
+  Vec3 apart(std::uint32_t from, std::uint32_t to) const {
+    return sites_[samples_[to].site].position - sites_[samples_[from].site].position;
+  }
+
+  // How far light may be from linear between two samples, of the brighter one's value.
+  double bend(std::uint32_t a, std::uint32_t b) const {
+    const Vec3 way = apart(a, b);
+    const double by_nearness = k_bend * glm::dot(way, way) * certain_[a].nearness * certain_[b].nearness;
+    const double by_mesh = most_bend_ / std::max({sum(original_[a]), sum(original_[b]), 1e-300});
+    return std::min(by_nearness, by_mesh) + (1 - glm::dot(samples_[a].normal, samples_[b].normal));
+  }
+
+  // Relative standard errors by what samples and those around them say of theirs.
+  void pool_noise() {
+    struct Said {
+      double value, variance;
+    };
+    std::pmr::vector<Said> said(values_.size(), pooled_.get_allocator()), before(said);
+    for (std::size_t i = 0; i < said.size(); ++i) {
+      const double value = sum(values_[i]), error = certain_[i].noise * value;
+      said[i] = {value, error * error};
+    }
+    for (int ring = 0; ring < k_rings; ++ring) {
+      before.swap(said);
+      for_each_sample([&](std::uint32_t i) {
+        Said all = before[i];
+        double weights = 1;
+        for (const std::uint32_t other : neighbours_.of(i)) {
+          const double bent = bend(i, other) / k_alike_bend, weight = 0.5 / (1 + bent * bent);
+          weights += weight;
+          all.value += weight * before[other].value;
+          all.variance += weight * before[other].variance;
+        }
+        said[i] = {all.value / weights, all.variance / weights};
+      });
+    }
+    for (std::size_t i = 0; i < said.size(); ++i) {
+      pooled_[i] = said[i].value > 0 ? std::sqrt(said[i].variance) / said[i].value : 0;
+    }
+  }
+
+  void move(std::uint32_t i) {
+    const Basis basis(samples_[i].normal);
+    const double own = noise_before_[i] * noise_before_[i];
+    Fit fit;
+    fit.add(1, Vec2(0.0), before_[i]);
+    for (const std::uint32_t other : neighbours_.of(i)) {
+      const Vec3 way = apart(i, other);
+      const double noise = noise_before_[other], bent = bend(i, other);
+      const double weight = std::min(own / (noise * noise + bent * bent), 1.0);
+      fit.add(0.5 * weight, {glm::dot(way, basis.x), glm::dot(way, basis.y)}, before_[other]);
+    }
+    Color value;
+    double variance = 1;
+    if (!fit.centre(value, variance)) {
+      return;
+    }
+    noise_[i] = noise_before_[i] * std::sqrt(std::min(1.0, variance));
+    value = glm::max(value, Color(0.0));
+    const double now = sum(value), first = sum(original_[i]);
+    if (std::abs(now - first) <= k_explained * pooled_[i] * std::max(first, now)) {
+      values_[i] = value;
+    }
+  }
+
+  std::span<const Site> sites_;
+  std::span<const Sample> samples_;
   std::span<const Certainty> certain_;
-  std::span<const Color> values_;
-  std::span<Color> smoothed_;
-  std::pmr::vector<Fit> fits_;  // of the facet's shares
+  double most_bend_;
+  std::span<Color> values_;
+  SampleNeighbours neighbours_;
+  std::pmr::vector<Color> original_, before_;
+  std::pmr::vector<double> pooled_, noise_, noise_before_;
+  Host& host_;
 };
 
 }  // namespace
 
-void smooth(const Surface& surface, std::span<const Certainty> certain, std::span<Color> values, Host& host) {
-  const std::pmr::vector<Color> before(values.begin(), values.end(), &host.memory);
-  const auto count = static_cast<std::uint32_t>(surface.facets().facets.size());
-  constexpr std::uint32_t k_task = 64;
-  host.jobs.for_each((count + k_task - 1) / k_task, [&](std::uint32_t task) {
-    FacetSmoother smoother(surface, certain, before, values, &host.memory);
-    for (std::uint32_t facet = task * k_task; facet < std::min(count, (task + 1) * k_task); ++facet) {
-      smoother.smooth(facet, false);
-      smoother.smooth(facet, true);
-    }
-  });
+void smooth(const Surface& surface, std::span<const Certainty> certain, double most_bend, std::span<Color> values,
+            Host& host) {
+  Smoother(surface, certain, most_bend, values, host).run();
 }
 
 }  // namespace radvor

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory_resource>
 #include <span>
 
 #include "base/host.h"
@@ -13,13 +12,17 @@ namespace radvor {
 
 /// What is known of one sample's value.
 struct Certainty {
-  double noise = 0;  ///< relative standard error; 0: the value stays as it is
-  double reach = 0;  ///< how far light from all around stays about the same, scene units
+  double noise = 0;      ///< standard error over the value, as far as the sample itself can tell
+  double nearness = 0;   ///< mean of one over the distance of what is seen: light from there changes over that distance
+  bool settled = false;  ///< the value stays as it is; its neighbours may still follow it
 };
 
-/// Moves values towards the plane that fits each sample and its neighbours on its facet best, those within reach, the
-/// nearer the more: what is linear stays. What differs from the plane by more than noise explains stays too. Samples
-/// that several facets share stay. values, certain: one a sample.
-void smooth(const Surface& surface, std::span<const Certainty> certain, std::span<Color> values, Host& host);
+/// Moves values towards the plane that fits each sample and its neighbours best: what is linear stays. A neighbour
+/// counts the more, the less noisy it is and the less light may bend on the way to it. What differs from the plane by
+/// more than noise explains stays too. How noisy a value is, its neighbours are asked as well: rays that missed what is
+/// bright do not know what they missed. values, certain: one a sample. most_bend: how far light may be from linear
+/// between neighbours at most, all channels as one: a mesh that follows the light knows.
+void smooth(const Surface& surface, std::span<const Certainty> certain, double most_bend, std::span<Color> values,
+            Host& host);
 
 }  // namespace radvor

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "base/hash.h"
@@ -14,6 +15,7 @@ namespace radvor {
 namespace {
 
 constexpr double k_least_weight = 1e-6;  // of an anchor that matters
+constexpr double k_left_bent = 8;        // tolerances that light may be from linear where the mesh has followed it
 constexpr double k_same_way = 0.95;      // cosine between normals of which one may take the other's light
 
 }  // namespace
@@ -161,10 +163,11 @@ void Solver::see_first_bounce() {
   interpolate(interpolated_, first_bounce_);
 }
 
-// How far off light from all around may be by the number of its rays, of one record: they are a net, so its error falls
-// with the 3/4th power of their number.
+// The relative standard error of a mean over a hemisphere's rays that differ by so much (their standard deviation over
+// the mean). They are a net, so it falls with the 3/4th power of their number; but what few of them meet is met by
+// chance, and falls with the root alone.
 double Solver::noise_of(std::uint32_t record, double spread) const {
-  return spread * std::pow(hemispheres_->outlook(record).weight, 0.75);
+  return spread * std::pow(hemispheres_->outlook(record).weight, 0.75) * std::pow(1 + spread * spread, 0.25);
 }
 
 // What hemispheres say of sky and surfaces is freed of noise. What was interpolated follows its anchors.
@@ -173,7 +176,6 @@ void Solver::settle_noise() {
   std::pmr::vector<Color> sky_light(direct.size(), Color(0.0), &host.memory);
   std::pmr::vector<Color> punctual(direct.size(), Color(0.0), &host.memory);
   const Color sky = k_pi * light_->sky_radiance();
-  const double reach = k_reach * std::sqrt(options.tolerance);
   const auto shares = surface->shares();
   radiosity_.resize(shares.size());
   for (std::size_t s = 0; s < shares.size(); ++s) {
@@ -186,20 +188,34 @@ void Solver::settle_noise() {
       const Outlook& outlook = outlooks_[i];
       sky_light[i] = outlook.open * sky;
       punctual[i] = glm::max(direct[i] - sky_light[i], Color(0.0));
-      certain[i].reach = reach / std::max(outlook.inverse_distance, 1e-300);
-      certain[i].noise =
-          records_[i] == k_none ? 0 : noise_of(records_[i], hemispheres_->spread(records_[i], radiosity_));
+      certain[i].nearness = outlook.inverse_distance;
+      certain[i].settled = records_[i] == k_none;
+      certain[i].noise = certain[i].settled ? 0 : noise_of(records_[i], hemispheres_->spread(records_[i], radiosity_));
     }
   });
-  smooth(*surface, certain, indirect, host);
-  // A sky that is open, or hidden, is so for certain. Elsewhere noise is not taken from what was seen of it: who saw
-  // none would stay dark and darken those who did (Sky.LittleOfItIsNotLess: by 4 %).
+  const auto follow_noise = [&] {
+    for (const std::uint32_t i : interpolated_) {
+      certain[i].noise = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        certain[i].noise += static_cast<double>(anchors_[i].weights[k]) * certain[anchors_[i].samples[k]].noise;
+      }
+    }
+  };
+  follow_noise();
+  const double most_bend = options.spacing.refines
+                               ? k_left_bent * options.tolerance * 3 * (mean_of(direct) + mean_of(indirect))
+                               : std::numeric_limits<double>::infinity();
+  smooth(*surface, certain, most_bend, indirect, host);
+  interpolate(interpolated_, indirect);
+  if (sum(sky) <= 0) {
+    return;
+  }
   for (std::size_t i = 0; i < direct.size(); ++i) {
     const double open = outlooks_[i].open;
-    certain[i].noise = records_[i] != k_none && open > 0 && open < 1 ? noise_of(records_[i], 1) : 0;
+    certain[i].noise = records_[i] != k_none && open > 0 ? noise_of(records_[i], std::sqrt((1 - open) / open)) : 0;
   }
-  smooth(*surface, certain, sky_light, host);
-  interpolate(interpolated_, indirect);
+  follow_noise();
+  smooth(*surface, certain, most_bend, sky_light, host);
   interpolate(interpolated_, sky_light);
   for (std::size_t i = 0; i < direct.size(); ++i) {
     if (sky_light[i] != outlooks_[i].open * sky) {  // else to the bit as it was

@@ -3,25 +3,23 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <set>
 
 #include "base/hash.h"
 #include "plain.h"
+#include "radiosity/sample_neighbours.h"
 
 namespace radvor {
 namespace {
 
+constexpr double k_any_bend = std::numeric_limits<double>::infinity();
+constexpr double k_far = 0.02;  // nearness of what is 50 away
+
 double ramp(const Vec3& at) {
   return 3 + at.x - 0.5 * at.y;
-}
-
-double rms(std::span<const Color> values, const Surface& surface) {
-  double squares = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const double error = values[i].g - ramp(surface.sites()[surface.samples()[i].site].position);
-    squares += error * error;
-  }
-  return std::sqrt(squares / static_cast<double>(values.size()));
 }
 
 class Smoothing : public testing::Test {
@@ -29,9 +27,24 @@ class Smoothing : public testing::Test {
   Smoothing() : bake(plain()), host(1), surface((*bake).surface()) {
     for (std::uint32_t i = 0; i < surface.samples().size(); ++i) {
       const double noise = 0.2 * (to_unit(mix(i + 1)) - 0.5);
-      linear.push_back(Color(ramp(surface.sites()[surface.samples()[i].site].position)));
+      linear.push_back(Color(ramp(position(i))));
       noisy.push_back(linear.back() + noise);
     }
+  }
+
+  const Vec3& position(std::uint32_t sample) const { return surface.sites()[surface.samples()[sample].site].position; }
+
+  double rms(std::span<const Color> values) const {
+    double squares = 0;
+    for (std::uint32_t i = 0; i < values.size(); ++i) {
+      squares += (values[i].g - linear[i].g) * (values[i].g - linear[i].g);
+    }
+    return std::sqrt(squares / static_cast<double>(values.size()));
+  }
+
+  std::vector<Color> smoothed(std::vector<Color> values, const Certainty& certainty) {
+    smooth(surface, std::vector<Certainty>(values.size(), certainty), k_any_bend, values, host.host);
+    return values;
   }
 
   TestBake bake;
@@ -41,40 +54,93 @@ class Smoothing : public testing::Test {
 };
 
 TEST_F(Smoothing, KeepsWhatIsLinear) {
-  const std::vector<Certainty> certain(linear.size(), Certainty{0.02, 10});
-  std::vector<Color> values = linear;
-  smooth(surface, certain, values, host.host);
-  EXPECT_GT(values.size(), 400u);
-  EXPECT_LT(rms(values, surface), 1e-12);
+  EXPECT_GT(linear.size(), 400u);
+  EXPECT_LT(rms(smoothed(linear, {0.02, k_far})), 1e-12);
 }
 
-TEST_F(Smoothing, HalvesNoiseAtLeast) {
-  const std::vector<Certainty> certain(linear.size(), Certainty{0.02, 10});
-  std::vector<Color> values = noisy;
-  smooth(surface, certain, values, host.host);
-  EXPECT_LT(rms(values, surface), 0.5 * rms(noisy, surface));
+TEST_F(Smoothing, TakesTwoThirdsOfTheNoise) {
+  EXPECT_LT(rms(smoothed(noisy, {0.02, k_far})), rms(noisy) / 3);
 }
 
 TEST_F(Smoothing, LeavesAStepThatNoiseDoesNotExplain) {
-  const std::vector<Certainty> certain(linear.size(), Certainty{0.001, 10});
-  std::vector<Color> values;
+  std::vector<Color> before;
   for (const Sample& sample : surface.samples()) {
-    values.push_back(Color(sample.point.x < 0 ? 1.0 : 5.0));
+    before.push_back(Color(sample.point.x < 0 ? 1.0 : 5.0));
   }
-  const std::vector<Color> before = values;
-  smooth(surface, certain, values, host.host);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    EXPECT_NEAR(values[i].g, before[i].g, 1e-12);
+  const std::vector<Color> after = smoothed(before, {0.001, k_far});
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    EXPECT_NEAR(after[i].g, before[i].g, 1e-12);
   }
 }
 
-TEST_F(Smoothing, LeavesWhatIsCertainAndWhatNothingReaches) {
-  for (const Certainty certainty : {Certainty{0, 10}, Certainty{0.02, 0.001}}) {
-    const std::vector<Certainty> certain(linear.size(), certainty);
-    std::vector<Color> values = noisy;
-    smooth(surface, certain, values, host.host);
-    EXPECT_TRUE(values == noisy);
+TEST_F(Smoothing, NothingMovesFartherThanNoiseExplains) {
+  for (const double noise : {0.003, 0.02, 0.1}) {
+    const std::vector<Color> after = smoothed(noisy, {noise, k_far});
+    for (std::size_t i = 0; i < after.size(); ++i) {
+      const double larger = std::max(after[i].g, noisy[i].g);
+      EXPECT_LE(std::abs(after[i].g - noisy[i].g), 3.6 * noise * larger);
+    }
   }
+}
+
+TEST_F(Smoothing, LeavesWhatIsSettledOrCertainOrFarFromLinear) {
+  EXPECT_EQ(smoothed(noisy, {0.02, k_far, true}), noisy);
+  EXPECT_EQ(smoothed(noisy, {0, k_far}), noisy);
+  const std::vector<Color> near_by = smoothed(noisy, {0.02, 1000});
+  for (std::size_t i = 0; i < noisy.size(); ++i) {
+    EXPECT_NEAR(near_by[i].g, noisy[i].g, 1e-6);
+  }
+}
+
+// Rays that all missed a lamp make its light 0 without a doubt, and one that met it too much.
+TEST_F(Smoothing, WhatRaysMissedNeighboursKnow) {
+  std::vector<Color> values;
+  std::vector<Certainty> certain;
+  for (std::uint32_t i = 0; i < linear.size(); ++i) {
+    const bool met = to_unit(mix(i + 1)) < 0.25;
+    values.push_back(met ? 4.0 * linear[i] : Color(0.0));
+    certain.push_back({met ? 2.0 : 0.0, k_far});
+  }
+  const std::vector<Color> before = values;
+  smooth(surface, certain, k_any_bend, values, host.host);
+  EXPECT_LT(rms(values), rms(before) / 3);
+  double sum_after = 0, sum_before = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    sum_after += values[i].g;
+    sum_before += before[i].g;
+  }
+  EXPECT_NEAR(sum_after / sum_before, 1, 0.05);
+}
+
+TEST(SampleNeighbours, AreOfBothEndsAndReachAcrossSmoothEdges) {
+  // A roof whose two halves are one smooth surface.
+  SceneBuilder builder;
+  const std::uint32_t white = builder.material(Color(0.5));
+  builder.quad({-1, -1, 0}, {0, -1, 0.1}, {0, 1, 0.1}, {-1, 1, 0}, white);
+  builder.quad({0, -1, 0.1}, {1, -1, 0}, {1, 1, 0}, {0, 1, 0.1}, white);
+  BakeOptions options;
+  options.spacing.patch_spacing = 0.2;
+  options.spacing.element_levels = 0;
+  TestBake bake(builder.take(), options, 1);
+  TestHost host(1);
+  const Surface& surface = (*bake).surface();
+  const SampleNeighbours neighbours(surface, host.host);
+  std::size_t with_both = 0;
+  for (std::uint32_t i = 0; i < surface.samples().size(); ++i) {
+    bool left = false, right = false;
+    for (const std::uint32_t other : neighbours.of(i)) {
+      const auto back = neighbours.of(other);
+      EXPECT_EQ(std::count(back.begin(), back.end(), i),
+                std::count(neighbours.of(i).begin(), neighbours.of(i).end(), other));
+      left = left || surface.sites()[surface.samples()[other].site].position.x < -1e-9;
+      right = right || surface.sites()[surface.samples()[other].site].position.x > 1e-9;
+    }
+    const std::set<std::uint32_t> different(neighbours.of(i).begin(), neighbours.of(i).end());
+    EXPECT_GE(different.size(), 2u);
+    EXPECT_LE(neighbours.of(i).size(), 2 * different.size());
+    with_both += left && right ? 1 : 0;
+  }
+  EXPECT_GT(with_both, 8u);
 }
 
 }  // namespace
