@@ -46,7 +46,8 @@ std::uint32_t Gather::add(std::uint32_t count) {
   return first;
 }
 
-// Rays over a receiver's hemisphere; on_link(ray, share) for each hit that shoots.
+// Rays over a receiver's hemisphere, in packets that go much the same way; on_link(ray, share) for each hit that
+// shoots.
 template <class OnLink>
 Outlook Gather::look(const Receiver& receiver, std::uint32_t ray_count, std::uint64_t seed, const Surface& surface,
                      Tracer& tracer, OnLink&& on_link) const {
@@ -54,25 +55,36 @@ Outlook Gather::look(const Receiver& receiver, std::uint32_t ray_count, std::uin
   const Net net(seed);
   const Basis basis(receiver.normal);
   const Draw draw(seed);
+  constexpr std::uint32_t k_packet = 16;
+  std::array<std::uint32_t, k_packet> rays;
+  std::array<Vec3, k_packet> along;
+  std::array<FirstHit, k_packet> hits;
   std::uint32_t open = 0, backs = 0;
   double inverse_distance = 0;
-  for (std::uint32_t ray = 0; ray < ray_count; ++ray) {
-    const Vec3 along = direction(basis, net.point(ray));
-    const FirstHit hit = tracer.first_hit(receiver.lifted, along);
-    if (hit.triangle == FirstHit::k_miss) {
-      ++open;
-      continue;
+  for (std::uint32_t first = 0; first < ray_count; first += k_packet) {
+    const std::uint32_t count = std::min(k_packet, ray_count - first);
+    for (std::uint32_t k = 0; k < count; ++k) {
+      rays[k] = order_.index(ray_count, first + k);
+      along[k] = direction(basis, net.point(rays[k]));
     }
-    inverse_distance += 1 / hit.distance;
-    const std::uint32_t facet = facets_.facet_of_triangle[occluders_[hit.triangle]];
-    const Facet& described = facets_.facets[facet];
-    if (!scene_.meshes[described.mesh].receives || (!hit.front && !scene_.materials[described.material].two_sided)) {
-      ++backs;
-      continue;
+    tracer.first_hits(receiver.lifted, std::span(along.data(), count), hits.data());
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const FirstHit& hit = hits[k];
+      if (hit.triangle == FirstHit::k_miss) {
+        ++open;
+        continue;
+      }
+      inverse_distance += 1 / hit.distance;
+      const std::uint32_t facet = facets_.facet_of_triangle[occluders_[hit.triangle]];
+      const Facet& described = facets_.facets[facet];
+      if (!scene_.meshes[described.mesh].receives || (!hit.front && !scene_.materials[described.material].two_sided)) {
+        ++backs;
+        continue;
+      }
+      const Vec2 point = described.frame.to_plane(receiver.lifted + hit.distance * along[k]);
+      const std::uint32_t front = draw.share(surface.locate(facet, point), rays[k]);
+      on_link(rays[k], hit.front ? front : shares[front].other_side);
     }
-    const FacetPoint point = surface.locate(facet, described.frame.to_plane(receiver.lifted + hit.distance * along));
-    const std::uint32_t front = draw.share(point, ray);
-    on_link(ray, hit.front ? front : shares[front].other_side);
   }
   const double weight = 1.0 / ray_count;
   return {open * weight, backs * weight, inverse_distance * weight, weight};

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/host.h"
+#include "radiosity/hemisphere.h"
 #include "radiosity/receiver.h"
 #include "radiosity/share_changes.h"
 #include "radiosity/tracer.h"
@@ -81,6 +82,7 @@ class Gather {
   const Facets& facets_;
   std::span<const std::uint32_t> occluders_;
   Host& host_;
+  NetOrder order_;
   std::pmr::vector<Record> records_;
 };
 

@@ -1,6 +1,8 @@
 // Low-discrepancy directions over a receiver's hemisphere, cosine-weighted: each counts the same.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 
 #include "base/hash.h"
@@ -32,6 +34,44 @@ class Net {
   static double to_unit(std::uint32_t bits) { return (bits + 0.5) * 0x1p-32; }
 
   std::uint32_t scramble_x_, scramble_y_;
+};
+
+/// The first 2^k points of a net in an order in which those that follow one another lie close together: along a
+/// Z-curve through its 2^k boxes, each of which has one. The same for every scramble, which moves boxes as a whole.
+class NetOrder {
+ public:
+  NetOrder() {
+    const Net net(0);
+    for (std::uint32_t bits = 0; bits <= k_most_bits; ++bits) {
+      for (std::uint32_t index = 0; index < (1u << bits); ++index) {
+        order_[(1u << bits) + place(net.point(index), bits)] = static_cast<std::uint16_t>(index);
+      }
+    }
+  }
+
+  /// count: a power of two. Of more than 1,024 points, each 1,024 by themselves.
+  std::uint32_t index(std::uint32_t count, std::uint32_t step) const {
+    const std::uint32_t part = std::min(count, 1u << k_most_bits);
+    return (step & ~(part - 1)) + order_[part + (step & (part - 1))];
+  }
+
+ private:
+  static constexpr std::uint32_t k_most_bits = 10;
+
+  // The box of a point, its coordinates' bits in turns.
+  static std::uint32_t place(Vec2 point, std::uint32_t bits) {
+    std::uint32_t box = 0;
+    for (std::uint32_t bit = 0; bit < bits; ++bit) {
+      double& coordinate = bit % 2 == 0 ? point.x : point.y;
+      coordinate *= 2;
+      const bool upper = coordinate >= 1;
+      coordinate -= upper ? 1 : 0;
+      box = 2 * box + (upper ? 1 : 0);
+    }
+    return box;
+  }
+
+  std::array<std::uint16_t, 2 << k_most_bits> order_{};  // of 2^k points from 2^k on
 };
 
 /// The direction of a point of a net.

@@ -57,6 +57,18 @@ class Tracer {
     return hit;
   }
 
+  /// first_hit of many directions; those that follow one another lie close together.
+  void first_hits(const Vec3& from, std::span<const Vec3> directions, FirstHit* hits) {
+    counters.rays += directions.size();
+    if (calls_++ % k_timed != 0) {
+      visibility_.first_hits(from, directions, hits);
+      return;
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    visibility_.first_hits(from, directions, hits);
+    counters.ray_seconds += k_timed * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+
   double lift() const { return visibility_.lift(); }
 
   TransportCounters counters;

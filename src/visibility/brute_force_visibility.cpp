@@ -106,6 +106,11 @@ FirstHit BruteForceVisibility::first_hit(const Vec3& from, const Vec3& direction
   return nearest.triangle == FirstHit::k_miss ? FirstHit{} : nearest;
 }
 
+void BruteForceVisibility::first_hits(const Vec3& from, std::span<const Vec3> directions, FirstHit* hits) const {
+  std::transform(directions.begin(), directions.end(), hits,
+                 [&](const Vec3& direction) { return first_hit(from, direction); });
+}
+
 double BruteForceVisibility::lift() const {
   return lift_;
 }

@@ -16,6 +16,7 @@ class BruteForceVisibility final : public Visibility {
   void blocked_from(const Vec3& from, std::span<const Vec3> to, std::uint8_t* blocked) const override;
   void blocked(std::span<const Sightline> segments, std::uint8_t* blocked) const override;
   FirstHit first_hit(const Vec3& from, const Vec3& direction) const override;
+  void first_hits(const Vec3& from, std::span<const Vec3> directions, FirstHit* hits) const override;
   double lift() const override;
   std::uint64_t bytes() const override { return 0; }
 

@@ -49,15 +49,17 @@ struct alignas(N == 1 ? 16 : 4 * N) Rays {
 };
 static_assert(sizeof(Rays<1>) == 48 && sizeof(Rays<4>) == 192 && sizeof(Rays<8>) == 384 && sizeof(Rays<16>) == 768);
 
-/// RTCRayHit.
-struct RayHit {
-  Rays<1> ray;
-  float normal_x, normal_y, normal_z;  // orientation and length are Embree's own: not used
-  float u, v;
-  std::uint32_t primitive, geometry;
-  std::uint32_t instances[33];  // 1 or more are written
+/// RTCRayHit, RTCRayHit4, RTCRayHit8, RTCRayHit16.
+template <int N>
+struct RayHits {
+  Rays<N> ray;
+  float normal_x[N], normal_y[N], normal_z[N];  // orientation and length are Embree's own: not used
+  float u[N], v[N];
+  std::uint32_t primitive[N], geometry[N];
+  std::uint32_t instances[33 * N];  // N or more are written
 };
-static_assert(offsetof(RayHit, normal_x) == 48 && offsetof(RayHit, instances) == 76);
+static_assert(offsetof(RayHits<1>, normal_x) == 48 && offsetof(RayHits<1>, instances) == 76);
+static_assert(offsetof(RayHits<16>, normal_x) == 768 && offsetof(RayHits<16>, instances) == 1216);
 
 /// RTCIntersectContext of Embree 3: flags, then filter (none), instance stack and minimal width, which are all 0.
 struct alignas(16) Context3 {
@@ -67,8 +69,8 @@ struct alignas(16) Context3 {
   std::uint32_t zero[63] = {};
 };
 
-/// RTCOccludedArguments of Embree 4: flags, feature mask (all), then context (its default), callbacks (none) and
-/// minimal width, which are all 0.
+/// RTCOccludedArguments and RTCIntersectArguments of Embree 4: flags, feature mask (all), then context (its default),
+/// callbacks (none) and minimal width, which are all 0.
 struct alignas(16) Arguments4 {
   static constexpr std::uint32_t k_coherent = 1u << 16;
 
@@ -99,8 +101,12 @@ using SetSharedGeometryBuffer = void (*)(Geometry*, int type, unsigned slot, int
 using CommitGeometry = void (*)(Geometry*);
 
 // Signatures that differ. valid: -1 for a lane that takes part, 0 for one that doesn't; aligned like the rays.
-using Intersect1In3 = void (*)(Scene*, Context3*, RayHit*);
-using Intersect1In4 = void (*)(Scene*, RayHit*, Arguments4*);
+using Intersect1In3 = void (*)(Scene*, Context3*, RayHits<1>*);
+using Intersect1In4 = void (*)(Scene*, RayHits<1>*, Arguments4*);
+template <int N>
+using IntersectIn3 = void (*)(const int* valid, Scene*, Context3*, RayHits<N>*);
+template <int N>
+using IntersectIn4 = void (*)(const int* valid, Scene*, RayHits<N>*, Arguments4*);
 using Occluded1In3 = void (*)(Scene*, Context3*, Rays<1>*);
 using Occluded1In4 = void (*)(Scene*, Rays<1>*, Arguments4*);
 template <int N>

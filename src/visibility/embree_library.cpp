@@ -108,8 +108,10 @@ class EmbreeLibrary::Attempt {
            find(l.release_geometry, "rtcReleaseGeometry") &&
            find(l.set_shared_geometry_buffer, "rtcSetSharedGeometryBuffer") &&
            find(l.commit_geometry, "rtcCommitGeometry") && find(l.intersect1_, "rtcIntersect1") &&
-           find(l.occluded1_, "rtcOccluded1") && find(l.occluded4_, "rtcOccluded4") &&
-           find(l.occluded8_, "rtcOccluded8") && find(l.occluded16_, "rtcOccluded16");
+           find(l.intersect4_, "rtcIntersect4") && find(l.intersect8_, "rtcIntersect8") &&
+           find(l.intersect16_, "rtcIntersect16") && find(l.occluded1_, "rtcOccluded1") &&
+           find(l.occluded4_, "rtcOccluded4") && find(l.occluded8_, "rtcOccluded8") &&
+           find(l.occluded16_, "rtcOccluded16");
   }
 
   bool ask_version() {

@@ -1,8 +1,10 @@
 #include "visibility/embree_visibility.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstring>
+#include <type_traits>
 
 #include "base/error.h"
 
@@ -150,23 +152,31 @@ void EmbreeVisibility::trace(std::size_t count, const SegmentAt& segment_at, std
 }
 
 // Packets of all lanes, then the narrowest that holds the rest: a ray alone is 1.5 times as fast by itself.
-template <class SegmentAt>
-void EmbreeVisibility::trace_all(std::size_t count, const SegmentAt& segment_at, std::uint8_t* blocked) const {
+// on_packet(width, first, count)
+template <class OnPacket>
+void EmbreeVisibility::for_packets(std::size_t count, OnPacket&& on_packet) const {
   const auto lanes = static_cast<std::size_t>(lanes_);
   for (std::size_t first = 0; first < count;) {
     const std::size_t live = std::min(lanes, count - first);
-    const auto segment = [&](std::size_t index) { return segment_at(first + index); };
     if (live > 8) {
-      trace<16>(live, segment, blocked + first);
+      on_packet(std::integral_constant<int, 16>(), first, live);
     } else if (live > 4) {
-      trace<8>(live, segment, blocked + first);
+      on_packet(std::integral_constant<int, 8>(), first, live);
     } else if (live > 1) {
-      trace<4>(live, segment, blocked + first);
+      on_packet(std::integral_constant<int, 4>(), first, live);
     } else {
-      trace<1>(live, segment, blocked + first);
+      on_packet(std::integral_constant<int, 1>(), first, live);
     }
     first += live;
   }
+}
+
+template <class SegmentAt>
+void EmbreeVisibility::trace_all(std::size_t count, const SegmentAt& segment_at, std::uint8_t* blocked) const {
+  for_packets(count, [&](auto width, std::size_t first, std::size_t live) {
+    trace<width>(
+        live, [&](std::size_t index) { return segment_at(first + index); }, blocked + first);
+  });
 }
 
 void EmbreeVisibility::blocked_from(const Vec3& from, std::span<const Vec3> to, std::uint8_t* blocked) const {
@@ -189,25 +199,48 @@ void EmbreeVisibility::blocked(std::span<const Sightline> segments, std::uint8_t
       blocked);
 }
 
-FirstHit EmbreeVisibility::first_hit(const Vec3& from, const Vec3& direction) const {
-  const Vec3 origin = rounded(frame_.to_frame(from));
-  const double largest = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
-  const Vec3 scaled = direction / largest;  // before the length, whose squares would overflow or vanish
-  embree::RayHit ray;
-  set_ray(ray.ray, 0, origin, scaled, std::numeric_limits<float>::infinity());
-  ray.geometry = embree::k_no_geometry;
-  ray.primitive = embree::k_no_geometry;
-  library_.intersect(scene_.get(), ray);
-  if (ray.geometry == embree::k_no_geometry) {
-    return {};
+template <int N>
+void EmbreeVisibility::intersect(const Vec3& origin, std::span<const Vec3> directions, FirstHit* hits) const {
+  embree::RayHits<N> rays;
+  alignas(4 * N) int valid[N];
+  std::array<double, N> largest;
+  for (int lane = 0; lane < N; ++lane) {
+    const std::size_t index = std::min(static_cast<std::size_t>(lane), directions.size() - 1);
+    const Vec3& direction = directions[index];
+    largest[lane] = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
+    // Before the length, whose squares would overflow or vanish.
+    set_ray(rays.ray, lane, origin, direction / largest[lane], std::numeric_limits<float>::infinity());
+    rays.geometry[lane] = rays.primitive[lane] = embree::k_no_geometry;
+    valid[lane] = static_cast<std::size_t>(lane) < directions.size() ? -1 : 0;
   }
-  const auto corner = [&](std::size_t index) {
-    const float* position = &positions_[std::size_t{3} * corners_[std::size_t{3} * ray.primitive + index]];
-    return Vec3(position[0], position[1], position[2]);
-  };
-  const Vec3 a = corner(0);
-  const Vec3 normal = glm::cross(corner(1) - a, corner(2) - a);
-  return {ray.primitive, glm::dot(normal, scaled) < 0, ray.ray.t_far[0] / (frame_.scale() * largest)};
+  library_.intersect(valid, scene_.get(), rays);
+  for (std::size_t index = 0; index < directions.size(); ++index) {
+    if (rays.geometry[index] == embree::k_no_geometry) {
+      hits[index] = {};
+      continue;
+    }
+    const auto corner = [&](std::size_t k) {
+      const float* position = &positions_[std::size_t{3} * corners_[std::size_t{3} * rays.primitive[index] + k]];
+      return Vec3(position[0], position[1], position[2]);
+    };
+    const Vec3 a = corner(0);
+    const Vec3 normal = glm::cross(corner(1) - a, corner(2) - a);
+    hits[index] = {rays.primitive[index], glm::dot(normal, directions[index] / largest[index]) < 0,
+                   rays.ray.t_far[index] / (frame_.scale() * largest[index])};
+  }
+}
+
+FirstHit EmbreeVisibility::first_hit(const Vec3& from, const Vec3& direction) const {
+  FirstHit hit;
+  intersect<1>(rounded(frame_.to_frame(from)), std::span(&direction, 1), &hit);
+  return hit;
+}
+
+void EmbreeVisibility::first_hits(const Vec3& from, std::span<const Vec3> directions, FirstHit* hits) const {
+  const Vec3 origin = rounded(frame_.to_frame(from));
+  for_packets(directions.size(), [&](auto width, std::size_t first, std::size_t count) {
+    intersect<width>(origin, directions.subspan(first, count), hits + first);
+  });
 }
 
 // In units of the rounding, the highest points that their own triangle still blocked, over random shapes, places and

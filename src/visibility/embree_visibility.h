@@ -22,6 +22,7 @@ class EmbreeVisibility final : public Visibility {
   void blocked_from(const Vec3& from, std::span<const Vec3> to, std::uint8_t* blocked) const override;
   void blocked(std::span<const Sightline> segments, std::uint8_t* blocked) const override;
   FirstHit first_hit(const Vec3& from, const Vec3& direction) const override;
+  void first_hits(const Vec3& from, std::span<const Vec3> directions, FirstHit* hits) const override;
   double lift() const override;
   std::uint64_t bytes() const override;
 
@@ -42,6 +43,11 @@ class EmbreeVisibility final : public Visibility {
   void trace(std::size_t count, const SegmentAt& segment_at, std::uint8_t* blocked) const;
   template <class SegmentAt>
   void trace_all(std::size_t count, const SegmentAt& segment_at, std::uint8_t* blocked) const;
+
+  template <class OnPacket>
+  void for_packets(std::size_t count, OnPacket&& on_packet) const;
+  template <int N>
+  void intersect(const Vec3& origin, std::span<const Vec3> directions, FirstHit* hits) const;
 
   void make_device();
   void copy_triangles(const Occluders& occluders);

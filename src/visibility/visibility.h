@@ -40,6 +40,9 @@ class Visibility {
   /// The nearest triangle along from + t * direction, t > 0; direction of any length > 0.
   virtual FirstHit first_hit(const Vec3& from, const Vec3& direction) const = 0;
 
+  /// The same for many directions, best where those that follow one another lie close together. hits: one each.
+  virtual void first_hits(const Vec3& from, std::span<const Vec3> directions, FirstHit* hits) const = 0;
+
   /// Scene units by which an end must stand off a surface so that rounding cannot make the surface, or its neighbours
   /// in the plane, block it: from the precision of the coordinates, not a fixed epsilon. Clears triangles up to 100
   /// times as long as they are high; thinner ones may still block a segment from their own surface here and there.

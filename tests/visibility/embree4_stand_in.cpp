@@ -20,14 +20,11 @@ struct alignas(N == 1 ? 16 : 4 * N) RayPacket {
   std::uint32_t mask[N], id[N], flags[N];
 };
 
-struct Hit {
-  float normal[3], u, v;
-  std::uint32_t primitive, geometry, instance;
-};
-
-struct alignas(16) RayAndHit {
-  RayPacket<1> ray;
-  Hit hit;
+template <int N>
+struct HitPacket {
+  RayPacket<N> ray;
+  float normal[3][N], u[N], v[N];
+  std::uint32_t primitive[N], geometry[N], instance[N];
 };
 
 struct Arguments {
@@ -108,9 +105,10 @@ std::ptrdiff_t nearest(const Scene* scene, const Vector& origin, const Vector& d
   return found;
 }
 
-template <int N>
-void occlude(const int* valid, const Scene* scene, RayPacket<N>* rays, const Arguments* arguments) {
-  if (reinterpret_cast<std::uintptr_t>(rays) % alignof(RayPacket<N>) != 0 ||
+// on_hit(lane, triangle, t) for each lane that meets something.
+template <int N, class OnHit>
+void trace(const int* valid, const Scene* scene, const RayPacket<N>& rays, const Arguments* arguments, OnHit on_hit) {
+  if (reinterpret_cast<std::uintptr_t>(&rays) % alignof(RayPacket<N>) != 0 ||
       reinterpret_cast<std::uintptr_t>(valid) % (N == 1 ? 1 : alignof(RayPacket<N>)) != 0) {
     refuse("a misaligned packet");
   }
@@ -126,13 +124,30 @@ void occlude(const int* valid, const Scene* scene, RayPacket<N>* rays, const Arg
     if (valid && valid[lane] == 0) {
       continue;
     }
-    double last = rays->far_t[lane];
-    const Vector origin{rays->origin[0][lane], rays->origin[1][lane], rays->origin[2][lane]};
-    const Vector direction{rays->direction[0][lane], rays->direction[1][lane], rays->direction[2][lane]};
-    if (nearest(scene, origin, direction, rays->near_t[lane], last) >= 0) {
-      rays->far_t[lane] = -std::numeric_limits<float>::infinity();
+    double last = rays.far_t[lane];
+    const Vector origin{rays.origin[0][lane], rays.origin[1][lane], rays.origin[2][lane]};
+    const Vector direction{rays.direction[0][lane], rays.direction[1][lane], rays.direction[2][lane]};
+    const std::ptrdiff_t triangle = nearest(scene, origin, direction, rays.near_t[lane], last);
+    if (triangle >= 0) {
+      on_hit(lane, triangle, last);
     }
   }
+}
+
+template <int N>
+void occlude(const int* valid, const Scene* scene, RayPacket<N>* rays, const Arguments* arguments) {
+  trace<N>(valid, scene, *rays, arguments,
+           [&](int lane, std::ptrdiff_t, double) { rays->far_t[lane] = -std::numeric_limits<float>::infinity(); });
+}
+
+template <int N>
+void intersect(const int* valid, const Scene* scene, HitPacket<N>* rays, const Arguments* arguments) {
+  trace<N>(valid, scene, rays->ray, arguments, [&](int lane, std::ptrdiff_t triangle, double t) {
+    rays->ray.far_t[lane] = static_cast<float>(t);
+    rays->primitive[lane] = static_cast<std::uint32_t>(triangle);
+    rays->geometry[lane] = 0;
+    rays->instance[lane] = 0xffffffffu;
+  });
 }
 
 }  // namespace
@@ -225,15 +240,15 @@ STAND_IN void rtcOccluded8(const int* valid, Scene* scene, RayPacket<8>* rays, A
 STAND_IN void rtcOccluded16(const int* valid, Scene* scene, RayPacket<16>* rays, Arguments* arguments) {
   occlude<16>(valid, scene, rays, arguments);
 }
-STAND_IN void rtcIntersect1(Scene* scene, RayAndHit* ray, Arguments*) {
-  const Vector origin{ray->ray.origin[0][0], ray->ray.origin[1][0], ray->ray.origin[2][0]};
-  const Vector direction{ray->ray.direction[0][0], ray->ray.direction[1][0], ray->ray.direction[2][0]};
-  double last = ray->ray.far_t[0];
-  const std::ptrdiff_t triangle = nearest(scene, origin, direction, ray->ray.near_t[0], last);
-  if (triangle >= 0) {
-    ray->ray.far_t[0] = static_cast<float>(last);
-    ray->hit.primitive = static_cast<std::uint32_t>(triangle);
-    ray->hit.geometry = 0;
-    ray->hit.instance = 0xffffffffu;
-  }
+STAND_IN void rtcIntersect1(Scene* scene, HitPacket<1>* rays, Arguments* arguments) {
+  intersect<1>(nullptr, scene, rays, arguments);
+}
+STAND_IN void rtcIntersect4(const int* valid, Scene* scene, HitPacket<4>* rays, Arguments* arguments) {
+  intersect<4>(valid, scene, rays, arguments);
+}
+STAND_IN void rtcIntersect8(const int* valid, Scene* scene, HitPacket<8>* rays, Arguments* arguments) {
+  intersect<8>(valid, scene, rays, arguments);
+}
+STAND_IN void rtcIntersect16(const int* valid, Scene* scene, HitPacket<16>* rays, Arguments* arguments) {
+  intersect<16>(valid, scene, rays, arguments);
 }

@@ -128,6 +128,22 @@ TEST(Embree4, AnswersAsTheOracleDoesInEveryWidth) {
       EXPECT_EQ(hit.triangle, oracles.triangle);
       EXPECT_EQ(hit.front, oracles.front);
     }
+    // From one origin, numbers that fill packets and that do not.
+    const int packets_before = packets_of(lanes);
+    for (std::size_t count = 1; count <= 40; ++count) {
+      std::vector<Vec3> directions;
+      for (std::size_t k = 0; k < count; ++k) {
+        directions.push_back(segments[k].to - segments[0].from);
+      }
+      std::vector<FirstHit> hits(count);
+      embree.first_hits(segments[0].from, directions, hits.data());
+      for (std::size_t k = 0; k < count; ++k) {
+        const FirstHit oracles = oracle.first_hit(segments[0].from, directions[k]);
+        EXPECT_EQ(hits[k].triangle, oracles.triangle);
+        EXPECT_EQ(hits[k].front, oracles.front);
+      }
+    }
+    EXPECT_GT(packets_of(lanes) - packets_before, 20) << "the native width was not used";
   }
 }
 

@@ -75,6 +75,21 @@ TEST_F(Embree, AgreesWithTheOracle) {
         ASSERT_LT(std::abs(glm::dot(normal, segment.from + hit.distance * direction - a)), embree.lift());
       }
     }
+    // Many from one origin are what each is by itself, whatever their number and length.
+    for (std::size_t k = 0; k + 40 <= segments.size(); k += 40) {
+      std::vector<Vec3> directions;
+      for (std::size_t i = 0; i <= k / 40 % 40; ++i) {
+        directions.push_back(std::pow(10.0, static_cast<double>(i % 7) - 3) * (segments[k + i].to - segments[k].from));
+      }
+      std::vector<FirstHit> hits(directions.size());
+      embree.first_hits(segments[k].from, directions, hits.data());
+      for (std::size_t i = 0; i < directions.size(); ++i) {
+        const FirstHit alone = embree.first_hit(segments[k].from, directions[i]);
+        ASSERT_EQ(hits[i].triangle, alone.triangle);
+        ASSERT_EQ(hits[i].front, alone.front);
+        ASSERT_NEAR(hits[i].distance, alone.distance, 1e-5 * alone.distance);
+      }
+    }
   }
 }
 
