@@ -50,6 +50,10 @@ BakeStatus Bake::advance(double seconds, const ProgressCallback& callback) {
   const Clock::time_point begin = Clock::now();
   const double before = state_->seconds;
   BakeStatus status = BakeStatus::converged;
+  state_->show_no_more();
+  if (seconds > 0 || state_->options.max_seconds > 0) {
+    state_->expect_pauses();
+  }
   bool moved = false;  // every slice does a unit of work, however short it is: a sequence of them comes to its end
   while (state_->stage() != Solver::Stage::done) {
     const Clock::time_point unit = Clock::now();
@@ -70,6 +74,9 @@ BakeStatus Bake::advance(double seconds, const ProgressCallback& callback) {
     moved = true;
     (on_direct ? state_->seconds_direct : state_->seconds_indirect) += seconds_since(unit);
     state_->seconds = before + seconds_since(begin);
+  }
+  if (status != BakeStatus::converged) {
+    state_->show();
   }
   if (status == BakeStatus::converged && callback.call) {
     callback.call(callback.user, progress());
@@ -98,7 +105,7 @@ Host& Bake::host() const {
 }
 std::span<const Color> Bake::direct() const {
   state_->require_whole();
-  return state_->direct;
+  return state_->direct_meanwhile();
 }
 std::span<const Color> Bake::indirect() const {
   state_->require_whole();

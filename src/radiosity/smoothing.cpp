@@ -109,7 +109,8 @@ class Smoother {
     struct Said {
       double value, variance;
     };
-    std::pmr::vector<Said> said(values_.size(), pooled_.get_allocator()), before(said);
+    std::pmr::vector<Said> said(values_.size(), pooled_.get_allocator()),
+        before(values_.size(), pooled_.get_allocator());
     for (std::size_t i = 0; i < said.size(); ++i) {
       const double value = sum(values_[i]), error = certain_[i].noise * value;
       said[i] = {value, error * error};

@@ -40,6 +40,8 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
       radiosity_(&host.memory),
       incoming_(&host.memory),
       incoming_before_(&host.memory),
+      glimpsed_(&host.memory),
+      shown_(&host.memory),
       stood_out_(&host.memory),
       shadowed_(&host.memory),
       probes_(&host.memory),
@@ -93,6 +95,9 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
 
 void Solver::step() {
   switch (stage_) {
+    case Stage::glimpse:
+      glimpse();
+      break;
     case Stage::direct:
       shine();
       break;
@@ -213,6 +218,8 @@ void Solver::report_convergence() {
   double now = 0;
   const double part = static_cast<double>(block_) / std::max(1u, blocks_->count());
   switch (stage_) {
+    case Stage::glimpse:
+      break;
     case Stage::direct:
       now = 0.4 * (source_ + part) / std::max(1u, light_->source_count());
       break;

@@ -1,6 +1,7 @@
 // The state of a bake and the steps of its loop. Each step is a unit of work whose order is fixed, small enough for a
 // time slice but for what plans and renumbers the mesh.
 //
+//   (glimpse: a guess at the sky, shown in pauses)
 //   direct -> refinement -> (once) silhouettes -> probes, again while they raise sites;
 //   hemispheres -> refinement -> probes, with direct before, again while they raise sites;
 //   fit -> account -> standouts -> bounces -> finish
@@ -36,6 +37,7 @@ class Solver {
   Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& maker, Host& lender);
 
   enum class Stage {
+    glimpse,
     direct,
     refinement,
     silhouettes,
@@ -53,6 +55,13 @@ class Solver {
   bool looks_around() const { return looking_; }
   void step();
 
+  /// Before the first step: there will be pauses, in which the light so far is shown.
+  void expect_pauses();
+  /// What direct_meanwhile() gives from now on; for as long as there is no other step.
+  void show();
+  void show_no_more() { shown_.clear(); }
+  std::span<const Color> direct_meanwhile() const;
+
   BakeStats stats() const;
 
   Host& host;
@@ -69,6 +78,7 @@ class Solver {
   const BakeStats& counters() const { return stats_; }
 
  private:
+  void glimpse();
   void shine();
   void refine();
   void cast_shadows();
@@ -148,6 +158,8 @@ class Solver {
   std::pmr::vector<glm::vec3> radiosity_;         // of each share: what is being shot
   std::pmr::vector<Color> incoming_;              // irradiance of the bounce under way, each sample
   std::pmr::vector<Color> incoming_before_;       // of the one before
+  std::pmr::vector<float> glimpsed_;              // share of each sample's view that is sky, a guess; empty: none
+  std::pmr::vector<Color> shown_;                 // between slices; empty: direct as it is
   std::pmr::vector<std::uint8_t> stood_out_;      // patches that have shot by themselves
 
   Stage stage_ = Stage::direct;

@@ -1,0 +1,72 @@
+// What a bake shows between slices: light from the first ones on, at every sample, whatever the mesh is about to do.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "rooms.h"
+#include "test_bake.h"
+
+namespace radvor {
+namespace {
+
+// A ground with a thin pole on it, under sky and sun: the pole's shadow makes the mesh refine, the ground sees nearly
+// all of the sky.
+Scene ground_with_a_pole() {
+  SceneBuilder builder;
+  const std::uint32_t grey = builder.material(Color(0.5));
+  builder.quad({-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}, grey);
+  builder.box({-0.1, -0.1, 0.2}, {0.1, 0.1, 0.6}, false, grey);
+  builder.under_sky(Color(1.0));
+  Light sun;
+  sun.type = LightType::directional;
+  sun.direction = glm::normalize(Vec3(0.6, 0.2, -1));
+  sun.color = Color(0.5);
+  builder.scene.lights.push_back(sun);
+  return builder.take();
+}
+
+BakeOptions fine() {
+  BakeOptions options;
+  options.tolerance = options.spacing.tolerance = 0.02;
+  options.spacing.patch_spacing = 0.25;
+  options.spacing.refines = true;
+  return options;
+}
+
+TEST(Meanwhile, TheSkyShowsFromTheFirstSlicesOnAtEverySampleOfTheGround) {
+  TestBake bake(ground_with_a_pole(), fine());
+  const double sky = 3.141592653589793;
+  std::size_t slices = 0, first_sites = 0, last_sites = 0;
+  for (BakeStatus status = BakeStatus::time_spent; status == BakeStatus::time_spent; ++slices) {
+    status = bake->advance(1e-9, {});
+    if (slices < 2) {
+      continue;  // a unit of work each: the glimpse takes two
+    }
+    const auto samples = (*bake).surface().samples();
+    ASSERT_EQ((*bake).direct().size(), samples.size());
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const Vec3& at = samples[i].point;
+      if (std::abs(at.z) < 1e-6 && samples[i].normal.z > 0.5 && std::max(std::abs(at.x), std::abs(at.y)) > 0.3) {
+        ASSERT_GT((*bake).direct()[i].g, 0.8 * sky) << "slice " << slices;
+        ASSERT_LT((*bake).direct()[i].g, 1.01 * (sky + 0.5));
+      }
+    }
+    last_sites = (*bake).surface().sites().size();
+    first_sites = first_sites == 0 ? last_sites : first_sites;
+  }
+  EXPECT_GT(slices, 20u);
+  EXPECT_GT(last_sites, 2 * first_sites);
+}
+
+TEST(Meanwhile, AGlimpseChangesNothing) {
+  TestBake sliced(ground_with_a_pole(), fine()), whole(ground_with_a_pole(), fine());
+  ASSERT_EQ(sliced.run(1e-9), BakeStatus::converged);
+  ASSERT_EQ(whole.run(), BakeStatus::converged);
+  EXPECT_TRUE(std::equal((*sliced).direct().begin(), (*sliced).direct().end(), (*whole).direct().begin(),
+                         (*whole).direct().end()));
+  EXPECT_GT((*sliced).stats().rays, (*whole).stats().rays);
+}
+
+}  // namespace
+}  // namespace radvor
