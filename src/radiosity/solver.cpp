@@ -82,6 +82,8 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
   outlooks_.assign(samples.size(), Outlook{});
   first_bounce_.assign(samples.size(), Color(0.0));
   unprobed_.assign(samples.size(), 1);
+  glimpsed_.assign(samples.size(), 0.0f);
+  stage_ = sum(light_->sky_radiance()) > 0 ? Stage::glimpse : Stage::direct;
   pending_.resize(samples.size());
   std::iota(pending_.begin(), pending_.end(), 0u);
   blocks_.emplace(*surface, receivers_, pending_, host);

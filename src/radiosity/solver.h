@@ -1,7 +1,7 @@
 // The state of a bake and the steps of its loop. Each step is a unit of work whose order is fixed, small enough for a
 // time slice but for what plans and renumbers the mesh.
 //
-//   (glimpse: a guess at the sky, shown in pauses)
+//   (glimpse, where there is a sky);
 //   direct -> refinement -> (once) silhouettes -> probes, again while they raise sites;
 //   hemispheres -> refinement -> probes, with direct before, again while they raise sites;
 //   fit -> account -> standouts -> bounces -> finish
@@ -55,8 +55,6 @@ class Solver {
   bool looks_around() const { return looking_; }
   void step();
 
-  /// Before the first step: there will be pauses, in which the light so far is shown.
-  void expect_pauses();
   /// What direct_meanwhile() gives from now on; for as long as there is no other step.
   void show();
   void show_no_more() { shown_.clear(); }
@@ -96,7 +94,7 @@ class Solver {
   void begin_level();
   void share_out_rays();
   std::uint32_t rays_for(double area) const;
-  bool may_see_edge_of_sky(std::span<const std::uint32_t, 3> around) const;
+  std::uint32_t rays_by_sky(std::span<const std::uint32_t, 3> around, float glimpsed) const;
   void look_around();
   void see_first_bounce();
   void interpolate(std::span<const std::uint32_t> samples, std::pmr::vector<Color>& values) const;
@@ -158,7 +156,7 @@ class Solver {
   std::pmr::vector<glm::vec3> radiosity_;         // of each share: what is being shot
   std::pmr::vector<Color> incoming_;              // irradiance of the bounce under way, each sample
   std::pmr::vector<Color> incoming_before_;       // of the one before
-  std::pmr::vector<float> glimpsed_;              // share of each sample's view that is sky, a guess; empty: none
+  std::pmr::vector<float> glimpsed_;              // of each sample: share of its view that is sky, a guess
   std::pmr::vector<Color> shown_;                 // between slices; empty: direct as it is
   std::pmr::vector<std::uint8_t> stood_out_;      // patches that have shot by themselves
 

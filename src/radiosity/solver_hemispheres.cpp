@@ -1,11 +1,13 @@
 // Light from all around: which samples look at it, with how many rays, and what the others make of that.
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "base/hash.h"
+#include "radiosity/hemisphere.h"
 #include "radiosity/method.h"
 #include "radiosity/smoothing.h"
 #include "radiosity/solver.h"
@@ -16,7 +18,10 @@ namespace {
 
 constexpr double k_least_weight = 1e-6;  // of an anchor that matters
 constexpr double k_left_bent = 8;        // tolerances that light may be from linear where the mesh has followed it
-constexpr double k_same_way = 0.95;      // cosine between normals of which one may take the other's light
+constexpr std::uint32_t k_rays_of_glimpse = 16;  // one packet
+constexpr std::uint64_t k_seed_of_glimpse = 0x676c696d70736573;
+constexpr float k_wide_open = 0.5f;  // share of the view that is sky, from which on its edges matter less
+constexpr double k_same_way = 0.95;  // cosine between normals of which one may take the other's light
 
 }  // namespace
 
@@ -75,7 +80,7 @@ void Solver::begin_level() {
   ray_counts_.clear();
   first_record_ = record;
   for (const std::uint32_t sample : looking) {
-    ray_counts_.push_back(rays_for(samples[sample].area) * (may_see_edge_of_sky(anchors_[sample].samples) ? 2 : 1));
+    ray_counts_.push_back(rays_for(samples[sample].area) * rays_by_sky(anchors_[sample].samples, glimpsed_[sample]));
     records_[sample] = record++;
   }
   blocks_.emplace(*surface, receivers_, looking, host);
@@ -98,12 +103,42 @@ std::uint32_t Solver::rays_for(double area) const {
   return std::bit_ceil(static_cast<std::uint32_t>(wanted));
 }
 
-// The edge between sky and what hides it is the sharpest there is: it is worth as many rays again. Their number does
-// not depend on what they meet: to go on only where the first ones saw sky would darken all that sees little of it.
-bool Solver::may_see_edge_of_sky(std::span<const std::uint32_t, 3> around) const {
-  return sum(light_->sky_radiance()) > 0 && std::any_of(around.begin(), around.end(), [&](std::uint32_t sample) {
-           return sample == k_none || known_[sample] == 0 || (outlooks_[sample].open > 0 && outlooks_[sample].open < 1);
-         });
+// A sky that is seen a little of, or perhaps, is worth as many rays again. Their number does not depend on what they
+// meet: to go on only where the first ones saw sky would darken all that sees little of it.
+std::uint32_t Solver::rays_by_sky(std::span<const std::uint32_t, 3> around, float glimpsed) const {
+  if (sum(light_->sky_radiance()) <= 0) {
+    return 1;
+  }
+  const bool unknown = std::any_of(around.begin(), around.end(),
+                                   [&](std::uint32_t sample) { return sample == k_none || known_[sample] == 0; });
+  const bool some = unknown ? glimpsed < k_wide_open : std::any_of(around.begin(), around.end(), [&](auto sample) {
+    return outlooks_[sample].open > 0 && outlooks_[sample].open < k_wide_open;
+  });
+  return some ? 2 : 1;
+}
+
+// The sky, which is in the hemispheres' rays and so comes last: a guess of its own, to be shown meanwhile, and to tell
+// how many rays its edges are worth.
+void Solver::glimpse() {
+  const std::uint32_t end = next_blocks(4);
+  over_blocks(block_, end, [&](std::uint32_t sample, Tracer& tracer) {
+    const Receiver& receiver = receivers_[sample];
+    const Net net(hash(options.seed, k_seed_of_glimpse, sample));
+    const Basis basis(receiver.normal);
+    std::array<Vec3, k_rays_of_glimpse> targets;
+    std::array<std::uint8_t, k_rays_of_glimpse> blocked;
+    for (std::uint32_t ray = 0; ray < k_rays_of_glimpse; ++ray) {
+      targets[ray] = receiver.lifted + light_->far() * direction(basis, net.point(ray));
+    }
+    tracer.blocked_from(receiver.lifted, targets, blocked.data());
+    const auto open = std::count(blocked.begin(), blocked.end(), std::uint8_t{0});
+    glimpsed_[sample] = static_cast<float>(open) / k_rays_of_glimpse;
+  });
+  block_ = end;
+  if (block_ == blocks_->count()) {
+    block_ = 0;
+    stage_ = Stage::direct;
+  }
 }
 
 // What some blocks of pending receivers see of their hemispheres.

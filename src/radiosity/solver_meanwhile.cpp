@@ -1,54 +1,11 @@
 // What a bake shows between slices of time: the light that is there, and a guess at what is still to come to some
-// samples. Nothing of it goes into the bake: slices or none, it ends the same.
-#include <array>
+// samples. What is shown goes nowhere: slices or none, a bake ends the same.
 #include <span>
 
-#include "base/hash.h"
-#include "radiosity/hemisphere.h"
 #include "radiosity/method.h"
 #include "radiosity/solver.h"
 
 namespace radvor {
-
-namespace {
-
-constexpr std::uint32_t k_rays_of_glimpse = 16;  // one packet
-
-}  // namespace
-
-void Solver::expect_pauses() {
-  const bool begun = stage_ != Stage::direct || round_ > 0 || source_ > 0 || block_ > 0 || !glimpsed_.empty();
-  if (!begun && sum(light_->sky_radiance()) > 0) {
-    glimpsed_.assign(direct.size(), 0.0f);
-    stage_ = Stage::glimpse;
-  }
-}
-
-// The sky, which the bake itself comes to last.
-void Solver::glimpse() {
-  const std::uint32_t end = next_blocks(4);
-  over_blocks(block_, end, [&](std::uint32_t sample, Tracer& tracer) {
-    const Receiver& receiver = receivers_[sample];
-    const Net net(hash(options.seed, sample));
-    const Basis basis(receiver.normal);
-    std::array<Vec3, k_rays_of_glimpse> targets;
-    std::array<std::uint8_t, k_rays_of_glimpse> blocked;
-    for (std::uint32_t ray = 0; ray < k_rays_of_glimpse; ++ray) {
-      targets[ray] = receiver.lifted + light_->far() * direction(basis, net.point(ray));
-    }
-    tracer.blocked_from(receiver.lifted, targets, blocked.data());
-    std::uint32_t open = 0;
-    for (const std::uint8_t hidden : blocked) {
-      open += hidden != 0 ? 0 : 1;
-    }
-    glimpsed_[sample] = static_cast<float>(open) / k_rays_of_glimpse;
-  });
-  block_ = end;
-  if (block_ == blocks_->count()) {
-    block_ = 0;
-    stage_ = Stage::direct;
-  }
-}
 
 // New samples, until their own light is there, show that of those that they lie between.
 void Solver::show() {
@@ -56,8 +13,7 @@ void Solver::show() {
   shown_.assign(direct.begin(), direct.end());
   const bool shines = stage_ == Stage::direct, looks = stage_ == Stage::hemispheres;
   const auto add_sky = [&](std::uint32_t i) {
-    const double open = known_[i] != 0 ? outlooks_[i].open : glimpsed_.empty() ? 0.0 : double{glimpsed_[i]};
-    shown_[i] += open * sky;
+    shown_[i] += (known_[i] != 0 ? outlooks_[i].open : double{glimpsed_[i]}) * sky;
   };
   if (!looking_) {
     for (std::uint32_t i = 0; i < shown_.size(); ++i) {

@@ -97,18 +97,16 @@ void Solver::follow(std::span<const Share> before, std::span<const std::uint32_t
       anchor = k_unanchored;
     }
   }
-  if (!glimpsed_.empty()) {
-    std::pmr::vector<float> glimpsed(memory);
-    glimpsed.reserve(origins.size());
-    for (const SampleOrigin& origin : origins) {
-      float open = 0;
-      for (std::size_t k = 0; k < 3; ++k) {
-        open += origin.weights[k] * glimpsed_[origin.samples[k]];
-      }
-      glimpsed.push_back(open);
+  std::pmr::vector<float> glimpsed(memory);
+  glimpsed.reserve(origins.size());
+  for (const SampleOrigin& origin : origins) {
+    float open = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      open += origin.weights[k] * glimpsed_[origin.samples[k]];
     }
-    glimpsed_.swap(glimpsed);
+    glimpsed.push_back(open);
   }
+  glimpsed_.swap(glimpsed);
   renumber(direct, origins, Color(0.0));
   renumber(sights_, origins, std::uint64_t{0});
   renumber(records_, origins, k_none);

@@ -30,7 +30,7 @@ void Solver::probe() {
       return;
     }
     const std::uint64_t seed = hash(options.seed, std::uint64_t{round_} + 1, k);
-    const std::uint32_t rays = probe_rays() * (may_see_edge_of_sky(probe.samples) ? 2 : 1);
+    const std::uint32_t rays = probe_rays() * rays_by_sky(probe.samples, 0);
     const Outlook outlook = hemispheres_->glance(probe.receiver, rays, seed, *surface, radiosity_, tracer, probed_[k]);
     probed_[k] += outlook.open * sky;
   });

@@ -59,13 +59,13 @@ TEST(Meanwhile, TheSkyShowsFromTheFirstSlicesOnAtEverySampleOfTheGround) {
   EXPECT_GT(last_sites, 2 * first_sites);
 }
 
-TEST(Meanwhile, AGlimpseChangesNothing) {
+TEST(Meanwhile, WhatIsShownChangesNothing) {
   TestBake sliced(ground_with_a_pole(), fine()), whole(ground_with_a_pole(), fine());
   ASSERT_EQ(sliced.run(1e-9), BakeStatus::converged);
   ASSERT_EQ(whole.run(), BakeStatus::converged);
   EXPECT_TRUE(std::equal((*sliced).direct().begin(), (*sliced).direct().end(), (*whole).direct().begin(),
                          (*whole).direct().end()));
-  EXPECT_GT((*sliced).stats().rays, (*whole).stats().rays);
+  EXPECT_EQ((*sliced).stats().rays, (*whole).stats().rays);
 }
 
 }  // namespace
