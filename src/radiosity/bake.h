@@ -87,7 +87,8 @@ class Bake {
   const BakeOptions& options() const;
   Host& host() const;
 
-  /// Irradiance of each sample of the surface, W m^-2.
+  /// Irradiance of each sample of the surface, W m^-2. After a slice that did not converge direct() has guesses where
+  /// light is still to come (Solver::show).
   std::span<const Color> direct() const;
   std::span<const Color> indirect() const;
   /// What is added to direct() where triangles interpolate (fit.h); empty where nothing is.

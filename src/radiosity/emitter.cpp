@@ -30,8 +30,9 @@ Vec3 centre(const std::array<Vec3, 3>& t) {
 constexpr std::size_t k_max_clipped = 64;  // occluders; rays where there are more
 constexpr std::size_t k_few_clipped = 12;  // exact without any ray; behind a crowd sixteen blocked rays mean dark
 constexpr int k_max_depth = 7;
-// Where rays disagree, of the tolerance: a part worth less stays whole. A penumbra has some 2^depth such parts with
-// independent errors, of which a fraction is in doubt.
+// Where rays disagree, of the tolerance: a part of a part worth less stays whole. A penumbra has some 2^depth such
+// parts with independent errors, of which a fraction is in doubt. (By 1 the hall of a real scene takes twice the rays,
+// for the same error.)
 constexpr double k_may_stay = 3;
 // Of the tolerance: what is worth less is not clipped, but asked by rays.
 constexpr double k_clipped = 0.25;
@@ -139,7 +140,7 @@ Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tr
   for (std::size_t i = 2; i < corner_count; ++i) {
     const std::array<Vec3, 3> triangle = {corners[0], corners[i - 1], corners[i]};
     const Part root{triangle, polygon_form_factor(receiver.point, receiver.normal, triangle, emitter.normal), 0};
-    if (root.form_factor > may_stay) {
+    if (root.form_factor > tolerable) {
       stack[size++] = root;  // what matters gets 16 rays at least, in 4 parts
     } else if (root.form_factor > 0) {
       settle(std::span(&root, 1));

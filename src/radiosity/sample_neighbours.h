@@ -15,7 +15,7 @@ class SampleNeighbours {
  public:
   SampleNeighbours(const Surface& surface, Host& host);
 
-  /// Once for each triangle that has the edge: twice inside of facets, once along borders.
+  /// Once for each triangle that has the edge: twice, but once along borders that are not smooth.
   std::span<const std::uint32_t> of(std::uint32_t sample) const {
     return std::span(list_).subspan(first_[sample], first_[sample + 1] - first_[sample]);
   }

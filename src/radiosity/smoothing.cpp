@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "radiosity/method.h"
-#include "radiosity/sample_neighbours.h"
 #include "radiosity/strata.h"
 
 namespace radvor {
@@ -52,14 +51,13 @@ struct Fit {
 
 class Smoother {
  public:
-  Smoother(const Surface& surface, std::span<const Certainty> certain, double most_bend, std::span<Color> values,
-           Host& host)
+  Smoother(const Surface& surface, const SampleNeighbours& neighbours, std::span<const Certainty> certain,
+           std::span<Color> values, Host& host)
       : sites_(surface.sites()),
         samples_(surface.samples()),
         certain_(certain),
-        most_bend_(most_bend),
         values_(values),
-        neighbours_(surface, host),
+        neighbours_(neighbours),
         original_(values.begin(), values.end(), &host.memory),
         before_(&host.memory),
         pooled_(values.size(), &host.memory),
@@ -98,10 +96,10 @@ class Smoother {
 
   // How far light may be from linear between two samples, of the brighter one's value.
   double bend(std::uint32_t a, std::uint32_t b) const {
-    const Vec3 way = apart(a, b);
-    const double by_nearness = k_bend * glm::dot(way, way) * certain_[a].nearness * certain_[b].nearness;
-    const double by_mesh = most_bend_ / std::max({sum(original_[a]), sum(original_[b]), 1e-300});
-    return std::min(by_nearness, by_mesh) + (1 - glm::dot(samples_[a].normal, samples_[b].normal));
+    const double steps = 0.5 * (certain_[a].nearness + certain_[b].nearness) * glm::length(apart(a, b));
+    const double brighter = std::max({sum(original_[a]), sum(original_[b]), 1e-300});
+    const double by_mesh = std::max(certain_[a].most_bend, certain_[b].most_bend) / brighter;
+    return std::min(k_bend * steps * steps, by_mesh) + (1 - glm::dot(samples_[a].normal, samples_[b].normal));
   }
 
   // Relative standard errors by what samples and those around them say of theirs.
@@ -150,20 +148,20 @@ class Smoother {
     if (!fit.centre(value, variance)) {
       return;
     }
-    noise_[i] = noise_before_[i] * std::sqrt(std::min(1.0, variance));
     value = glm::max(value, Color(0.0));
-    const double now = sum(value), first = sum(original_[i]);
-    if (std::abs(now - first) <= k_explained * pooled_[i] * std::max(first, now)) {
+    const double most = k_explained * pooled_[i] * std::max(sum(original_[i]), sum(value));
+    const Color moved = glm::abs(value - original_[i]);
+    if (std::max({moved.r, moved.g, moved.b, std::abs(sum(value) - sum(original_[i]))}) <= most) {
       values_[i] = value;
+      noise_[i] = noise_before_[i] * std::sqrt(std::min(1.0, variance));
     }
   }
 
   std::span<const Site> sites_;
   std::span<const Sample> samples_;
   std::span<const Certainty> certain_;
-  double most_bend_;
   std::span<Color> values_;
-  SampleNeighbours neighbours_;
+  const SampleNeighbours& neighbours_;
   std::pmr::vector<Color> original_, before_;
   std::pmr::vector<double> pooled_, noise_, noise_before_;
   Host& host_;
@@ -171,9 +169,9 @@ class Smoother {
 
 }  // namespace
 
-void smooth(const Surface& surface, std::span<const Certainty> certain, double most_bend, std::span<Color> values,
-            Host& host) {
-  Smoother(surface, certain, most_bend, values, host).run();
+void smooth(const Surface& surface, const SampleNeighbours& neighbours, std::span<const Certainty> certain,
+            std::span<Color> values, Host& host) {
+  Smoother(surface, neighbours, certain, values, host).run();
 }
 
 }  // namespace radvor

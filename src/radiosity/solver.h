@@ -1,5 +1,5 @@
 // The state of a bake and the steps of its loop. Each step is a unit of work whose order is fixed, small enough for a
-// time slice but for what plans and renumbers the mesh.
+// time slice but for what plans and renumbers the mesh, judges shadows, and ends the bake.
 //
 //   (glimpse, where there is a sky);
 //   direct -> refinement -> (once) silhouettes -> probes, again while they raise sites;
@@ -57,7 +57,7 @@ class Solver {
 
   /// What direct_meanwhile() gives from now on; for as long as there is no other step.
   void show();
-  void show_no_more() { shown_.clear(); }
+  void show_no_more();
   std::span<const Color> direct_meanwhile() const;
 
   BakeStats stats() const;

@@ -23,6 +23,7 @@ constexpr double k_most_ratio = 0.97;  // of a bounce to the one before, as a se
 
 // What the sources emitted and lost; what surfaces have to reflect.
 void Solver::account() {
+  surface->group_patches();
   const FateMeter meter(scene, *welded, *visibility_, occluders_, options.seed);
   const FateMeter::Powers powers = meter.of_sources(*light_, host);
   stats_.emitted_power = powers.emitted;

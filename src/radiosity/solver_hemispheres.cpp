@@ -3,7 +3,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "base/hash.h"
@@ -207,6 +206,9 @@ double Solver::noise_of(std::uint32_t record, double spread) const {
 
 // What hemispheres say of sky and surfaces is freed of noise. What was interpolated follows its anchors.
 void Solver::settle_noise() {
+  if (hemispheres_->size() == 0) {
+    return;
+  }
   std::pmr::vector<Certainty> certain(direct.size(), Certainty{}, &host.memory);
   std::pmr::vector<Color> sky_light(direct.size(), Color(0.0), &host.memory);
   std::pmr::vector<Color> punctual(direct.size(), Color(0.0), &host.memory);
@@ -216,6 +218,9 @@ void Solver::settle_noise() {
   for (std::size_t s = 0; s < shares.size(); ++s) {
     radiosity_[s] = glm::vec3(shares[s].albedo * (direct[shares[s].sample] + indirect[shares[s].sample]));
   }
+  const std::uint32_t most_sites = options.spacing.max_sites;
+  const bool follows = options.spacing.refines && (most_sites == 0 || surface->sites().size() < most_sites);
+  const double left_bent = k_left_bent * options.tolerance * 3 * (mean_of(direct) + mean_of(indirect));
   constexpr std::uint32_t k_block = 256;
   const auto count = static_cast<std::uint32_t>(direct.size());
   host.jobs.for_each((count + k_block - 1) / k_block, [&](std::uint32_t block) {
@@ -225,6 +230,9 @@ void Solver::settle_noise() {
       punctual[i] = glm::max(direct[i] - sky_light[i], Color(0.0));
       certain[i].nearness = outlook.inverse_distance;
       certain[i].settled = records_[i] == k_none;
+      if (follows && surface->level_of(surface->samples()[i].site) < surface->max_level()) {
+        certain[i].most_bend = left_bent;
+      }
       certain[i].noise = certain[i].settled ? 0 : noise_of(records_[i], hemispheres_->spread(records_[i], radiosity_));
     }
   });
@@ -237,10 +245,8 @@ void Solver::settle_noise() {
     }
   };
   follow_noise();
-  const double most_bend = options.spacing.refines
-                               ? k_left_bent * options.tolerance * 3 * (mean_of(direct) + mean_of(indirect))
-                               : std::numeric_limits<double>::infinity();
-  smooth(*surface, certain, most_bend, indirect, host);
+  const SampleNeighbours neighbours(*surface, host);
+  smooth(*surface, neighbours, certain, indirect, host);
   interpolate(interpolated_, indirect);
   if (sum(sky) <= 0) {
     return;
@@ -250,7 +256,7 @@ void Solver::settle_noise() {
     certain[i].noise = records_[i] != k_none && open > 0 ? noise_of(records_[i], std::sqrt((1 - open) / open)) : 0;
   }
   follow_noise();
-  smooth(*surface, certain, most_bend, sky_light, host);
+  smooth(*surface, neighbours, certain, sky_light, host);
   interpolate(interpolated_, sky_light);
   for (std::size_t i = 0; i < direct.size(); ++i) {
     if (sky_light[i] != outlooks_[i].open * sky) {  // else to the bit as it was

@@ -1,5 +1,6 @@
 // What a bake shows between slices of time: the light that is there, and a guess at what is still to come to some
 // samples. What is shown goes nowhere: slices or none, a bake ends the same.
+#include <new>
 #include <span>
 
 #include "radiosity/method.h"
@@ -7,35 +8,42 @@
 
 namespace radvor {
 
-// New samples, until their own light is there, show that of those that they lie between.
 void Solver::show() {
+  try {
+    shown_.assign(direct.begin(), direct.end());
+  } catch (const std::bad_alloc&) {  // what there is for certain will do
+    shown_.clear();
+    return;
+  }
   const Color sky = k_pi * light_->sky_radiance();
-  shown_.assign(direct.begin(), direct.end());
-  const bool shines = stage_ == Stage::direct, looks = stage_ == Stage::hemispheres;
   const auto add_sky = [&](std::uint32_t i) {
     shown_[i] += (known_[i] != 0 ? outlooks_[i].open : double{glimpsed_[i]}) * sky;
   };
+  const bool shines = stage_ == Stage::direct && source_ < light_->source_count();
   if (!looking_) {
     for (std::uint32_t i = 0; i < shown_.size(); ++i) {
       add_sky(i);
     }
-  } else if (shines || looks) {
+  } else if (stage_ == Stage::direct || stage_ == Stage::hemispheres) {
     for (const std::uint32_t i : pending_) {
       add_sky(i);
     }
   }
-  if (shines && round_ > 0) {
-    for (const std::uint32_t i : pending_) {
-      const SampleOrigin& anchor = anchors_[i];
-      if (anchor.samples[0] == k_none) {
-        continue;
-      }
-      shown_[i] = Color(0.0);
+  // New samples, until all sources have shone on them, show the light of those that they lie between.
+  for (std::size_t n = 0; shines && n < pending_.size(); ++n) {
+    const SampleOrigin& anchor = anchors_[pending_[n]];
+    if (anchor.samples[0] != k_none) {
+      Color between(0.0);
       for (std::size_t k = 0; k < 3; ++k) {
-        shown_[i] += static_cast<double>(anchor.weights[k]) * shown_[anchor.samples[k]];
+        between += static_cast<double>(anchor.weights[k]) * shown_[anchor.samples[k]];
       }
+      shown_[pending_[n]] = between;
     }
   }
+}
+
+void Solver::show_no_more() {
+  shown_ = std::pmr::vector<Color>(&host.memory);
 }
 
 std::span<const Color> Solver::direct_meanwhile() const {

@@ -53,6 +53,7 @@ void Solver::judge_shadows() {
     }
     const double area =
         std::min(cast.area, 0.5 * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0])));
+    // A shadow is darker than the mesh has it: what is brighter than that is not for shadows to tell.
     const auto matters = [&](double found, double expected) {
       return expected > found && score_of(found, expected, mean, area) > noticed;
     };

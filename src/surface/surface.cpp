@@ -17,7 +17,6 @@ struct Surface::State : SurfaceParts {
   using SurfaceParts::SurfaceParts;
 
   std::optional<Refinement> refinement;  // what it needs to know is found out when it is first used
-  bool patches_made = false;             // of the shares as they are now
 };
 
 Surface::Surface(const Scene& scene, const WeldedScene& welded, const Facets& facets, const SurfaceOptions& options,
@@ -54,7 +53,8 @@ std::pmr::vector<SampleOrigin> Surface::refine(std::span<const std::uint32_t> si
   if (!state_->refinement) {
     state_->refinement.emplace(*state_);
   }
-  state_->patches_made = false;
+  state_->first_of_patch.clear();
+  state_->patch_members.clear();
   state_->refinement->raise(sites, max_sites);
   state_->refinement->insert(wanted, max_sites);
   return remake_surface(*state_, state_->refinement->take_changes());
@@ -108,22 +108,18 @@ std::span<const Share> Surface::shares() const {
   return state_->shares;
 }
 
+void Surface::group_patches() {
+  const FloatingPointGuard guard(Denormals::keep);
+  make_patches(*state_);
+}
+
 std::uint32_t Surface::patch_count() const {
-  group_patches();
-  return static_cast<std::uint32_t>(state_->first_of_patch.size() - 1);
+  return state_->first_of_patch.empty() ? 0 : static_cast<std::uint32_t>(state_->first_of_patch.size() - 1);
 }
 
 std::span<const std::uint32_t> Surface::patch(std::uint32_t patch) const {
-  group_patches();
   const std::uint32_t first = state_->first_of_patch[patch];
   return std::span(state_->patch_members).subspan(first, state_->first_of_patch[patch + 1] - first);
-}
-
-void Surface::group_patches() const {
-  if (!state_->patches_made) {
-    make_patches(*state_);
-    state_->patches_made = true;
-  }
 }
 
 std::span<const ShareTriangle> Surface::triangles(std::uint32_t facet) const {

@@ -58,7 +58,7 @@ struct Share {
   double area = 0;  ///< of its cell
   std::uint32_t sample;
   std::uint32_t facet;
-  std::uint32_t patch;   ///< once patches were asked for
+  std::uint32_t patch;   ///< once they are grouped
   std::uint32_t vertex;  ///< in the facet's triangulation
   std::uint32_t next_in_sample = k_none;
   std::uint32_t other_side = k_none;  ///< the same cell seen from the other side of a two-sided facet
@@ -105,8 +105,9 @@ class Surface {
   std::span<const Site> sites() const;
   std::span<const Sample> samples() const;
   std::span<const Share> shares() const;
-  /// Patches are grouped when they are asked for first after a refinement (not from several threads at once): few
-  /// refinements are followed by a shot. Until then Share::patch says nothing.
+  /// Groups the shares into patches, anew after each refinement: most refinements are not followed by a shot. Before
+  /// that there are none, and Share::patch says nothing.
+  void group_patches();
   std::uint32_t patch_count() const;
   /// Shares of one patch, ascending.
   std::span<const std::uint32_t> patch(std::uint32_t patch) const;
@@ -117,8 +118,8 @@ class Surface {
 
   /// Raises the level around sites by one, in the order given: each inserts its missing neighbours of the next level,
   /// on its facets' lattices (refinement.h) and on its borders. Sites near by that would lag by two levels are raised
-  /// first, across borders too. Sites keep their numbers and new ones are appended; shares, samples, patches
-  /// and triangles are numbered anew. Which sites there are depends on the levels that sites were raised to, never on
+  /// first, across borders too. Sites keep their numbers and new ones are appended; shares, samples and
+  /// triangles are numbered anew. Which sites there are depends on the levels that sites were raised to, never on
   /// the order or the rounds.
   ///
   /// Sites at max_level() stay. max_sites (0: no limit): the first site whose raising would lead beyond it, and those
@@ -159,8 +160,6 @@ class Surface {
   const Facets& facets() const;
 
  private:
-  void group_patches() const;
-
   struct State;
   State* state_;
   std::pmr::memory_resource* memory_;

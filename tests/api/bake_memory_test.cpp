@@ -90,6 +90,32 @@ TEST_F(BakeMemory, RefusedWhileAdvancingLeavesWhatCanOnlyBeDestroyed) {
   EXPECT_GT(refusals, 20);
 }
 
+// What is shown between slices is not worth a bake: without memory for it, the light that is certain is shown.
+TEST_F(BakeMemory, RefusedInASliceBreaksTheSolutionOrNothing) {
+  const radvor_bake_options options = coarse();
+  int broken = 0, whole = 0;
+  for (std::uint64_t n = 1; n <= 40; ++n) {
+    for (int before = 0; before < 4; ++before) {
+      radvor_solution* solution = nullptr;
+      ASSERT_EQ(radvor_solution_create(scene_, &options, &solution), RADVOR_OK) << engine_.error();
+      for (int slice = 0; slice < before; ++slice) {
+        ASSERT_EQ(radvor_solution_advance(solution, 1e-9, nullptr), RADVOR_TIME_SPENT);
+      }
+      engine_.refuse_from(n);
+      const radvor_result result = radvor_solution_advance(solution, 1e-9, nullptr);
+      engine_.refuse_from(0);
+      const bool breaks = result == RADVOR_ERROR_OUT_OF_MEMORY;
+      ASSERT_TRUE(breaks || result == RADVOR_TIME_SPENT);
+      EXPECT_EQ(radvor_solution_advance(solution, 0, nullptr), breaks ? RADVOR_ERROR_OUT_OF_MEMORY : RADVOR_OK);
+      broken += breaks ? 1 : 0;
+      whole += breaks ? 0 : 1;
+      radvor_solution_destroy(solution);
+    }
+  }
+  EXPECT_GT(broken, 2);
+  EXPECT_GT(whole, 10);
+}
+
 TEST_F(BakeMemory, RefusedAtAnyBlockOfReading) {
   const radvor_bake_options options = coarse();
   radvor_solution *solution = nullptr, *untroubled = nullptr;

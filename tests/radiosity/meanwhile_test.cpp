@@ -59,6 +59,29 @@ TEST(Meanwhile, TheSkyShowsFromTheFirstSlicesOnAtEverySampleOfTheGround) {
   EXPECT_GT(last_sites, 2 * first_sites);
 }
 
+TEST(Meanwhile, NewSamplesShowWhatTheyLieBetween) {
+  Scene scene = ground_with_a_pole();
+  scene.lights.erase(scene.lights.begin());  // the sun alone
+  const double lit = 0.5 * std::abs(scene.lights[0].direction.z);
+  TestBake bake(std::move(scene), fine());
+  const std::size_t first = (*bake).surface().samples().size();
+  std::size_t refined = 0;
+  for (BakeStatus status = BakeStatus::time_spent; status == BakeStatus::time_spent;) {
+    status = bake->advance(1e-9, {});
+    const auto samples = (*bake).surface().samples();
+    if (samples.size() == first) {
+      continue;  // the sun has not shone on all of them yet
+    }
+    ++refined;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const Vec3& at = samples[i].point;
+      const bool in_the_open = std::abs(at.z) < 1e-6 && samples[i].normal.z > 0.5 && (at.x < -0.4 || at.y < -0.4);
+      ASSERT_TRUE(!in_the_open || std::abs((*bake).direct()[i].g - lit) < 1e-6);
+    }
+  }
+  EXPECT_GT(refined, 5u);
+}
+
 TEST(Meanwhile, WhatIsShownChangesNothing) {
   TestBake sliced(ground_with_a_pole(), fine()), whole(ground_with_a_pole(), fine());
   ASSERT_EQ(sliced.run(1e-9), BakeStatus::converged);

@@ -35,10 +35,11 @@ struct MadeFacetsInTouch : MadeFacets {
 struct MadeSurface : MadeFacetsInTouch {
   MadeSurface(Scene given, const SurfaceOptions& options, std::uint32_t threads = 2,
               Touching touching = Touching::found)
-      : MadeFacetsInTouch(std::move(given), options, threads, touching),
-        surface(scene, welded, facets, options, host) {}
+      : MadeFacetsInTouch(std::move(given), options, threads, touching), surface(scene, welded, facets, options, host) {
+    surface.group_patches();
+  }
 
-  Surface surface;
+  mutable Surface surface;  // patches may be grouped whenever they are asked for
 };
 
 inline const Site& site_of(const Surface& surface, std::uint32_t share) {
@@ -78,6 +79,7 @@ inline double polygon_area(const std::pmr::vector<Vec3>& polygon, const Vec3& no
 
 /// What holds for every surface whatever it is made of: links, numbers, areas.
 inline void audit(const MadeSurface& made) {
+  made.surface.group_patches();
   const Surface& surface = made.surface;
   const auto samples = surface.samples();
   const auto shares = surface.shares();

@@ -34,7 +34,8 @@ TEST_P(RealScene, BecomesASurface) {
   EXPECT_EQ(test::audit(welded, facets), "");
   const std::uint64_t before = host.memory.live_bytes();
   const auto start = std::chrono::steady_clock::now();
-  const Surface surface(given, welded, facets, options, host);
+  Surface surface(given, welded, facets, options, host);
+  surface.group_patches();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::printf(
       "%s: %zu triangles, %zu facets, %zu contacts in %.3f s, spacing %.4g / 2^%u: %zu sites, %zu samples, %zu shares, "

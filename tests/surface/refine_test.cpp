@@ -357,7 +357,9 @@ TEST(Refine, PatchesKeepTheirCentres) {
   std::mt19937 random(12);
   for (int round = 0; round < 5; ++round) {
     made.surface.refine(some_sites(made.surface, 4, random));
+    EXPECT_EQ(made.surface.patch_count(), 0u);
   }
+  made.surface.group_patches();
   EXPECT_EQ(made.surface.patch_count(), patches);
   // A patch's sites are those nearer to its centre, its one site of level 0 that lies on the lattice, than to others.
   const auto shares = made.surface.shares();
@@ -398,6 +400,7 @@ TEST(Refine, TheSameBytesForOneTwoAndThreeThreads) {
     for (const Sample& sample : made.surface.samples()) {
       put(sample.point), put(sample.normal), put(sample.area), put(sample.site), put(sample.first_share);
     }
+    made.surface.group_patches();
     put(made.surface.patch_count());
     for (const Share& share : made.surface.shares()) {
       put(share.centroid), put(share.area), put(share.sample), put(share.patch), put(share.vertex);

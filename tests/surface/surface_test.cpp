@@ -173,6 +173,7 @@ TEST(Surface, TheSameBytesForOneTwoAndThreeThreads) {
     for (const Sample& sample : made.surface.samples()) {
       put(sample.point), put(sample.normal), put(sample.area), put(sample.site), put(sample.first_share);
     }
+    made.surface.group_patches();
     put(made.surface.patch_count());
     for (const Share& share : made.surface.shares()) {
       put(share.centroid), put(share.albedo), put(share.area), put(share.sample), put(share.patch), put(share.vertex);
