@@ -17,7 +17,7 @@ constexpr const char* k_usage =
     "bake_bench replay RADVOR-BAKE-ARGUMENT...\n"
     "bake_bench mesh RADVOR-BAKE-ARGUMENT... --stats OUT.obj\n"
     "bake_bench trace SCENE --points IN.csv --prefix OUT [--lights FILE] [--samples N] [--max-seconds S] [--seed N] "
-    "[--direct]\n"
+    "[--direct | --max-bounces N]\n"
     "bake_bench points SCENE --count N --out OUT.csv\n"
     "bake_bench describe SCENE\n"
     "SCENE may also be split:N:SCENE, city:TRIANGLES or hall:LAMPS:CELLS\n";
@@ -33,6 +33,7 @@ int trace(int argc, char** argv) {
   app.add_option("--max-seconds", options.most_seconds);
   app.add_option("--seed", options.seed);
   app.add_flag("--direct", options.direct);
+  app.add_option("--max-bounces", options.most_bounces);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -3,7 +3,7 @@
 
     ./dev bench bake [SCENE...]            curves: radvor, its uniform mesh, a path tracer beside them
     ./dev bench bake STUDY [SCENE...]      skips, threads, scaling, embree, first-light, city,
-                                           lattices, tracer
+                                           lattices, halving, tracer
 
 SCENE is a folder of ../shared/scenes or a file of samples/scenes without its .obj [the clean scenes with a reference].
 Figures go to build/bench/bake.json (--json), pictures to build/bench (--pictures). Errors are those of

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@ namespace bench {
 struct TraceOptions {
   std::string scene, lights, points, prefix;
   bool direct = false;
+  std::uint32_t most_bounces = std::numeric_limits<std::uint32_t>::max();
   std::uint32_t seed = 1;
   std::uint32_t most_samples = 1u << 20;
   double most_seconds = 60;  ///< no doubling begins after that

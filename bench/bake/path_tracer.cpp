@@ -51,8 +51,8 @@ glm::vec3 cosine_direction(const glm::vec3& n, float u, float v) {
 
 }  // namespace
 
-PathTracer::PathTracer(const TracedScene& scene, const LightSources& lights, bool direct)
-    : scene_(scene), lights_(lights), direct_(direct) {}
+PathTracer::PathTracer(const TracedScene& scene, const LightSources& lights, std::uint32_t most_bounces)
+    : scene_(scene), lights_(lights), most_bounces_(most_bounces) {}
 
 glm::dvec3 PathTracer::trace(const Receiver& receiver, std::uint32_t first, std::uint32_t count) {
   sum_ = glm::dvec3(0);
@@ -157,7 +157,7 @@ void PathTracer::arrive(std::uint32_t seed, std::uint32_t depth) {
     if (emission.x + emission.y + emission.z > 0) {
       sum_ += glm::dvec3(k_pi * lights_.weight_of_hit(path.position, path.normal, hit) * path.throughput * emission);
     }
-    if (direct_) {
+    if (depth >= most_bounces_) {
       continue;
     }
     path.throughput *= hit.albedo;

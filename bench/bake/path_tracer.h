@@ -21,8 +21,8 @@ struct Receiver {
 
 class PathTracer {
  public:
-  /// direct: paths end where they first meet a surface.
-  PathTracer(const TracedScene& scene, const LightSources& lights, bool direct);
+  /// most_bounces: 0: paths end where they first meet a surface.
+  PathTracer(const TracedScene& scene, const LightSources& lights, std::uint32_t most_bounces);
 
   /// Sum of the estimates of the irradiance by the paths first ... first + count - 1.
   glm::dvec3 trace(const Receiver& receiver, std::uint32_t first, std::uint32_t count);
@@ -47,7 +47,7 @@ class PathTracer {
 
   const TracedScene& scene_;
   const LightSources& lights_;
-  bool direct_;
+  std::uint32_t most_bounces_;
   Sobol sobol_;
   std::vector<Path> paths_;
   std::vector<Ray> rays_, segments_;

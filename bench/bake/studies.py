@@ -141,6 +141,26 @@ def first_light(scenes, options):
     return result
 
 
+def halving(scenes, options):
+    """Mean error of four seeds, the tolerance halved from step to step."""
+    result = {}
+    for scene in scenes:
+        rows = []
+        for tolerance in (0.16, 0.08, 0.04, 0.02, 0.01, 0.005):
+            bakes = [runs.bake(scene, ["--tolerance", tolerance, "--seed", seed], options.max_seconds)
+                     for seed in (1, 2, 3, 4)]
+            if not all(run and run["finished"] for run in bakes):
+                break
+            means = {figure: sum(run["error"][figure] for run in bakes) / 4 for figure in ("rms", "rms99", "local", "bias")}
+            rows.append({"tolerance": tolerance, "error": means, "rays": sum(run["rays"] for run in bakes) / 4,
+                         "cpu_seconds": sum(run["cpu_seconds"] for run in bakes) / 4})
+            less = "" if len(rows) == 1 else f"  {100 * (means['rms'] / rows[-2]['error']['rms'] - 1):+.0f} %"
+            say(f"{scene.name:<12} {tolerance:<6} rms {100 * means['rms']:.2f} %  rms99 {100 * means['rms99']:.2f} %  "
+                f"{rows[-1]['rays'] / 1e6:.2f} M rays{less}")
+        result[scene.name] = rows
+    return result
+
+
 def lattices(scenes, options):
     """Uniform hexagonal and quadrilateral meshes of as many sites; nothing else differs."""
     result = {}
@@ -196,4 +216,4 @@ def city(_, options):
 
 
 k_studies = {"skips": skips, "threads": threads, "scaling": scaling, "embree": embree,
-             "first-light": first_light, "city": city, "lattices": lattices, "tracer": tracer}
+             "first-light": first_light, "city": city, "halving": halving, "lattices": lattices, "tracer": tracer}

@@ -118,6 +118,13 @@ def lattices(data):
     table(["scene", "cells", "sites", "rms", "rms99", "local", "processor time"], rows)
 
 
+def halving(data):
+    table(["scene", "tolerance", "rms", "rms99", "local", "bias", "rays", "processor time"],
+          [[scene, row["tolerance"], *(percent(row["error"][figure], 2) for figure in ("rms", "rms99", "local", "bias")),
+            f"{row['rays'] / 1e6:.2f} M", seconds(row["cpu_seconds"])]
+           for scene, rows in data.get("halving", {}).items() for row in rows])
+
+
 def tracer(data):
     table(["scene", "samples", "bias", "its standard error", "rms beyond the reference's noise", "rms99"],
           [[scene, f"{row['samples']:,}", f"{100 * row['error']['bias']:+.3f} %", percent(row["bias_allowed"], 3),
@@ -128,10 +135,11 @@ def tracer(data):
 def main():
     data = json.loads(open(sys.argv[1]).read())
     print(json.dumps(data.get("machine")))
-    for part in (curves, tracer, skips, threads, scaling, memory, embree, first_light, lattices):
+    for part in (curves, tracer, skips, threads, scaling, memory, embree, first_light, lattices, halving):
         print(f"\n### {part.__name__}\n")
         part(data)
     print(json.dumps({key: value for key, value in data.get("city", {}).items() if key != "options"}, indent=1))
 
 
-main()
+if __name__ == "__main__":
+    main()

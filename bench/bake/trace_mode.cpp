@@ -55,7 +55,7 @@ int trace_mode(const TraceOptions& options) {
   const TracedScene scene(data);
   const LightSources sources(scene, lights, static_cast<float>(glm::length(box.high - box.low)));
   const std::vector<Receiver> receivers = receivers_at(points, scene, options.seed);
-  PathTracer tracer(scene, sources, options.direct);
+  PathTracer tracer(scene, sources, options.direct ? 0 : options.most_bounces);
   std::vector<glm::dvec3> sharp, sums(receivers.size(), glm::dvec3(0));
   for (const Receiver& receiver : receivers) {
     sharp.push_back(tracer.trace_sharp_lights(receiver));
