@@ -1,7 +1,6 @@
 #include "visibility/embree_visibility.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <cstring>
 #include <type_traits>
@@ -203,7 +202,7 @@ template <int N>
 void EmbreeVisibility::intersect(const Vec3& origin, std::span<const Vec3> directions, FirstHit* hits) const {
   embree::RayHits<N> rays;
   alignas(4 * N) int valid[N];
-  std::array<double, N> largest;
+  double largest[N];
   for (int lane = 0; lane < N; ++lane) {
     const std::size_t index = std::min(static_cast<std::size_t>(lane), directions.size() - 1);
     const Vec3& direction = directions[index];
