@@ -37,36 +37,20 @@ class Tracer {
 
   void blocked_from(const Vec3& from, std::span<const Vec3> to, std::uint8_t* blocked) {
     counters.rays += to.size();
-    if (calls_++ % k_timed != 0) {
-      visibility_.blocked_from(from, to, blocked);
-      return;
-    }
-    const auto begin = std::chrono::steady_clock::now();
-    visibility_.blocked_from(from, to, blocked);
-    counters.ray_seconds += k_timed * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    timed([&] { visibility_.blocked_from(from, to, blocked); });
   }
 
   FirstHit first_hit(const Vec3& from, const Vec3& direction) {
     ++counters.rays;
-    if (calls_++ % k_timed != 0) {
-      return visibility_.first_hit(from, direction);
-    }
-    const auto begin = std::chrono::steady_clock::now();
-    const FirstHit hit = visibility_.first_hit(from, direction);
-    counters.ray_seconds += k_timed * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    FirstHit hit;
+    timed([&] { hit = visibility_.first_hit(from, direction); });
     return hit;
   }
 
   /// first_hit of many directions; those that follow one another lie close together.
   void first_hits(const Vec3& from, std::span<const Vec3> directions, FirstHit* hits) {
     counters.rays += directions.size();
-    if (calls_++ % k_timed != 0) {
-      visibility_.first_hits(from, directions, hits);
-      return;
-    }
-    const auto begin = std::chrono::steady_clock::now();
-    visibility_.first_hits(from, directions, hits);
-    counters.ray_seconds += k_timed * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    timed([&] { visibility_.first_hits(from, directions, hits); });
   }
 
   double lift() const { return visibility_.lift(); }
@@ -75,6 +59,18 @@ class Tracer {
 
  private:
   static constexpr std::uint32_t k_timed = 64;
+
+  // Every 64th call by the clock, for itself and those before it.
+  template <class Call>
+  void timed(Call&& call) {
+    if (calls_++ % k_timed != 0) {
+      call();
+      return;
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    call();
+    counters.ray_seconds += k_timed * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
 
   const Visibility& visibility_;
   std::uint32_t calls_ = 0;
