@@ -31,8 +31,8 @@ constexpr std::size_t k_max_clipped = 64;  // occluders; rays where there are mo
 constexpr std::size_t k_few_clipped = 12;  // exact without any ray; behind a crowd sixteen blocked rays mean dark
 constexpr int k_max_depth = 7;
 // Where rays disagree, of the tolerance: a part of a part worth less stays whole. A penumbra has some 2^depth such
-// parts with independent errors, of which a fraction is in doubt. (By 1 the hall of a real scene takes twice the rays,
-// for the same error.)
+// parts with independent errors, of which a fraction is in doubt. (By 1, staircase takes twice the rays for the same
+// error: tests/scenes.py staircase --direct.)
 constexpr double k_may_stay = 3;
 // Of the tolerance: what is worth less is not clipped, but asked by rays.
 constexpr double k_clipped = 0.25;
