@@ -11,7 +11,7 @@ namespace radvor {
 namespace {
 
 constexpr double k_pi = 3.14159265358979323846;
-constexpr std::uint32_t k_rays_per_kind = 1u << 14;  // a share's standard error is at most 0.4 %
+constexpr std::uint32_t k_least_rays = 256, k_most_rays = 1u << 14;  // of one kind of source
 
 double sum(const Color& color) {
   return color.r + color.g + color.b;
@@ -53,6 +53,15 @@ Vec3 in_triangle(const std::array<Vec3, 3>& t, double a, double b) {
 
 }  // namespace
 
+FateMeter::FateMeter(const Scene& scene, const WeldedScene& welded, const Visibility& visibility,
+                     std::span<const std::uint32_t> occluders, double tolerance, std::uint64_t seed)
+    : scene_(scene), welded_(welded), visibility_(visibility), occluders_(occluders), seed_(seed) {
+  // A share that n rays tell has a standard error of 1 / (2 sqrt(n)) at most.
+  const double root = 5 / (2 * tolerance);
+  rays_per_kind_ = static_cast<std::uint32_t>(
+      std::clamp(root * root, static_cast<double>(k_least_rays), static_cast<double>(k_most_rays)));
+}
+
 FateMeter::End FateMeter::follow(const Vec3& from, const Vec3& direction) const {
   const FirstHit hit = visibility_.first_hit(from, direction);
   if (hit.triangle == FirstHit::k_miss) {
@@ -87,18 +96,18 @@ FateMeter::Powers FateMeter::of_sources(const DirectLight& light, Host& host) co
       const double full = std::min(1.0, outer + width);
       power = 2 * k_pi * sum(lamp.color) * ((1 - full) + std::pow(full - outer, 3) / (3 * width * width));
     }
-    const std::uint32_t share = k_rays_per_kind / static_cast<std::uint32_t>(punctual.size());
-    sources.push_back({power, std::max(256u, share)});
+    const std::uint32_t share = rays_per_kind_ / static_cast<std::uint32_t>(punctual.size());
+    sources.push_back({power, std::max(k_least_rays, share)});
   }
   const auto sky_index = static_cast<std::uint32_t>(sources.size());
-  sources.push_back({4 * k_pi * k_pi * radius * radius * sum(light.sky_radiance()), k_rays_per_kind});
+  sources.push_back({4 * k_pi * k_pi * radius * radius * sum(light.sky_radiance()), rays_per_kind_});
   double emitted = 0;
   for (const Emitter& emitter : emitters) {
     emitted += emitter.area * sum(emitter.radiosity);
   }
   for (const Emitter& emitter : emitters) {
     const double power = emitter.area * sum(emitter.radiosity);
-    sources.push_back({power, std::max(1u, static_cast<std::uint32_t>(k_rays_per_kind * power / emitted))});
+    sources.push_back({power, std::max(1u, static_cast<std::uint32_t>(rays_per_kind_ * power / emitted))});
   }
 
   const auto ray = [&](std::uint32_t source, std::uint32_t index) {

@@ -16,10 +16,10 @@ namespace radvor {
 
 class FateMeter {
  public:
-  /// occluders: the welded triangle of each triangle given to the visibility. Keeps references to all arguments.
+  /// occluders: the welded triangle of each triangle given to the visibility. tolerance: what is told of each kind of
+  /// source has a standard error of a fifth of it, in shares of what it emits. Keeps references to all arguments.
   FateMeter(const Scene& scene, const WeldedScene& welded, const Visibility& visibility,
-            std::span<const std::uint32_t> occluders, std::uint64_t seed)
-      : scene_(scene), welded_(welded), visibility_(visibility), occluders_(occluders), seed_(seed) {}
+            std::span<const std::uint32_t> occluders, double tolerance, std::uint64_t seed);
 
   struct Powers {
     double emitted = 0, escaped = 0, backs = 0;  ///< W, RGB summed
@@ -38,6 +38,7 @@ class FateMeter {
   const WeldedScene& welded_;
   const Visibility& visibility_;
   std::span<const std::uint32_t> occluders_;
+  std::uint32_t rays_per_kind_;
   std::uint64_t seed_;
 };
 

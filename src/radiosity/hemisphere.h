@@ -10,30 +10,53 @@
 
 namespace radvor {
 
-/// The first two dimensions of Sobol's sequence (1967), scrambled by exclusive or: the first 2^k points are a (0, k, 2)
-/// net, one in each of the 2^k elementary boxes of any shape, under every scramble.
+/// A point of Sobol's sequence (1967), its first two dimensions, as numerators over 2^32.
+struct NetBits {
+  std::uint32_t x = 0, y = 0;
+
+  constexpr NetBits() = default;
+  constexpr NetBits(std::uint32_t x_bits, std::uint32_t y_bits) : x(x_bits), y(y_bits) {}
+  constexpr explicit NetBits(std::uint32_t index) {
+    for (NetBits column(1u << 31, 1u << 31); index != 0; index >>= 1) {
+      *this = index & 1 ? *this ^ column : *this;
+      column = {column.x >> 1, column.y ^ (column.y >> 1)};
+    }
+  }
+
+  constexpr NetBits operator^(const NetBits& other) const { return {x ^ other.x, y ^ other.y}; }
+};
+
+/// The first points: nearly all hemispheres take no more.
+inline constexpr auto k_net = [] {
+  std::array<NetBits, 1024> first;
+  for (std::uint32_t index = 0; index < first.size(); ++index) {
+    first[index] = NetBits(index);
+  }
+  return first;
+}();
+
+/// The sequence scrambled by exclusive or: the first 2^k points are a (0, k, 2) net, one in each of the 2^k elementary
+/// boxes of any shape, under every scramble.
 class Net {
  public:
   explicit Net(std::uint64_t seed)
-      : scramble_x_(static_cast<std::uint32_t>(mix(seed))), scramble_y_(static_cast<std::uint32_t>(mix(seed) >> 32)) {}
+      : scramble_(static_cast<std::uint32_t>(mix(seed)), static_cast<std::uint32_t>(mix(seed) >> 32)) {}
 
   /// In [0, 1)^2.
   Vec2 point(std::uint32_t index) const {
-    std::uint32_t x = 0, y = 0;
-    for (std::uint32_t bit = 1u << 31, column = 1u << 31; index != 0; index >>= 1, bit >>= 1, column ^= column >> 1) {
-      if (index & 1) {
-        x ^= bit;
-        y ^= column;
-      }
+    const std::uint32_t low = index % k_net.size();
+    NetBits bits = k_net[low] ^ scramble_;
+    if (low != index) {  // the sequence is linear in the index's bits
+      bits = bits ^ NetBits(index - low);
     }
-    return {to_unit(x ^ scramble_x_), to_unit(y ^ scramble_y_)};
+    return {to_unit(bits.x), to_unit(bits.y)};
   }
 
  private:
   // The middle of the finest box.
   static double to_unit(std::uint32_t bits) { return (bits + 0.5) * 0x1p-32; }
 
-  std::uint32_t scramble_x_, scramble_y_;
+  NetBits scramble_;
 };
 
 /// The first 2^k points of a net in an order in which those that follow one another lie close together: along a

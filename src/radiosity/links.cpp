@@ -45,7 +45,7 @@ void LinkMaker::make(const Receiver& receiver, std::span<const std::uint32_t> ro
     if (roots[i] == k_none) {
       continue;
     }
-    pending_.push_back(roots[i]);
+    pending_.push_back({roots[i], false});
     open_pending(receiver, tracer);
     if (targets_.size() >= k_batch) {
       settle_all(receiver, tracer);
@@ -56,9 +56,9 @@ void LinkMaker::make(const Receiver& receiver, std::span<const std::uint32_t> ro
 
 void LinkMaker::open_pending(const Receiver& receiver, Tracer& tracer) {
   while (!pending_.empty()) {
-    const std::uint32_t node = pending_.back();
+    const Pending pending = pending_.back();
     pending_.pop_back();
-    open(node, receiver, tracer);
+    open(pending, receiver, tracer);
   }
 }
 
@@ -71,7 +71,8 @@ void LinkMaker::settle_all(const Receiver& receiver, Tracer& tracer) {
 }
 
 // Decides how a node is seen: not at all, as a whole, as its polygon, or by its children.
-void LinkMaker::open(std::uint32_t index, const Receiver& receiver, Tracer& tracer) {
+void LinkMaker::open(Pending pending, const Receiver& receiver, Tracer& tracer) {
+  const auto [index, clear] = pending;
   const TreeNode& node = tree_.nodes()[index];
   const Vec3& x = receiver.point;
   const Vec3& n = receiver.normal;
@@ -92,9 +93,7 @@ void LinkMaker::open(std::uint32_t index, const Receiver& receiver, Tracer& trac
   double form_factor;
   if (!leaf) {
     if (!whole || distance < accuracy_.separation * node.radius) {
-      for (std::uint32_t child = node.first_child; child < node.first_child + node.child_count; ++child) {
-        pending_.push_back(child);
-      }
+      open_children(node, clear || is_clear(node, receiver, tracer));
       return;
     }
     ++tracer.counters.form_factors;
@@ -115,6 +114,11 @@ void LinkMaker::open(std::uint32_t index, const Receiver& receiver, Tracer& trac
   if (form_factor <= 0) {
     return;
   }
+  if (clear) {
+    ++tracer.counters.skipped_clear;
+    link(index, form_factor, receiver);
+    return;
+  }
   if (form_factor > accuracy_.clip_above) {
     if (const auto visible = clip(node, form_factor, receiver, tracer)) {
       link(index, *visible, receiver);
@@ -125,6 +129,18 @@ void LinkMaker::open(std::uint32_t index, const Receiver& receiver, Tracer& trac
   const auto rays = static_cast<std::uint32_t>(
       std::clamp(wanted, static_cast<double>(accuracy_.least_rays), static_cast<double>(accuracy_.most_rays)));
   propose(index, form_factor, rays, receiver, tracer);
+}
+
+void LinkMaker::open_children(const TreeNode& node, bool clear) {
+  for (std::uint32_t child = node.first_child; child < node.first_child + node.child_count; ++child) {
+    pending_.push_back({child, clear});
+  }
+}
+
+// One look at the whole of a flat node saves one at each of those under it.
+bool LinkMaker::is_clear(const TreeNode& node, const Receiver& receiver, Tracer& tracer) const {
+  return occluders_ != nullptr && node.flat &&
+         visible_share(receiver, bounding_rectangle(node), node.piece.normal, 0, tracer, *occluders_).has_value();
 }
 
 // Queues rays to points spread over the node: one in each of equal runs of its elements, or several in its one cell.
@@ -171,9 +187,7 @@ void LinkMaker::settle(const Receiver& receiver, Tracer& tracer) {
     const TreeNode& node = tree_.nodes()[candidate.node];
     const bool mixed = candidate.ray_count == 0 || (hidden != 0 && hidden != candidate.ray_count);
     if (mixed && node.child_count > 0 && candidate.form_factor > accuracy_.splittable) {
-      for (std::uint32_t child = node.first_child; child < node.first_child + node.child_count; ++child) {
-        pending_.push_back(child);
-      }
+      open_children(node, false);
       continue;
     }
     const double visible = all > 0 ? candidate.form_factor * seen / all : 0;

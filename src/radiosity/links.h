@@ -49,13 +49,19 @@ class LinkMaker {
             std::pmr::vector<Link>& links);
 
  private:
+  struct Pending {
+    std::uint32_t node;
+    bool clear;  ///< nothing is in the way to any of it
+  };
   struct Candidate {
     std::uint32_t node;
     std::uint32_t first_ray, ray_count;
     double form_factor;
   };
 
-  void open(std::uint32_t node, const Receiver& receiver, Tracer& tracer);
+  void open(Pending pending, const Receiver& receiver, Tracer& tracer);
+  void open_children(const TreeNode& node, bool clear);
+  bool is_clear(const TreeNode& node, const Receiver& receiver, Tracer& tracer) const;
   void link(std::uint32_t node, double visible, const Receiver& receiver);
   void propose(std::uint32_t node, double form_factor, std::uint32_t ray_count, const Receiver& receiver,
                Tracer& tracer);
@@ -68,7 +74,7 @@ class LinkMaker {
   const OccluderTree* occluders_;  ///< none: rays alone
   LinkAccuracy accuracy_;
   std::pmr::vector<Link>* links_ = nullptr;  ///< of the receiver under way
-  std::pmr::vector<std::uint32_t> pending_;  ///< nodes to look at
+  std::pmr::vector<Pending> pending_;        ///< nodes to look at
   std::pmr::vector<Candidate> candidates_;   ///< nodes that wait for their rays
   std::pmr::vector<Vec3> targets_;
   std::pmr::vector<double> weights_;

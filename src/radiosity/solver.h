@@ -92,11 +92,14 @@ class Solver {
               std::span<const SampleOrigin> origins);
   void keep_interpolated(std::span<const std::uint32_t> now);
   void begin_level();
-  void share_out_rays();
-  std::uint32_t rays_for(double area) const;
+  void share_out_rays(double rays);
+  std::uint32_t rays_for(std::uint32_t sample) const;
+  void look_from(std::uint32_t sample, std::uint32_t rays, Tracer& tracer);
   std::uint32_t rays_by_sky(std::span<const std::uint32_t, 3> around, float glimpsed) const;
   void look_around();
   void see_first_bounce();
+  void reflect_direct();
+  void sound_out_noise();
   void interpolate(std::span<const std::uint32_t> samples, std::pmr::vector<Color>& values) const;
   void account();
   void shoot_standout();
@@ -105,6 +108,10 @@ class Solver {
   void add_series(double ratio_of_all);
   void bounce();
   double noise_of(std::uint32_t record, double spread) const;
+  double noise_of_sky(std::uint32_t sample) const;
+  void free_of_noise(std::pmr::vector<Color>& reflected, std::pmr::vector<Color>& sky, double bend) const;
+  std::pmr::vector<Color> settled_light() const;
+  std::pmr::vector<Color> sky_light() const;
   void settle_noise();
   void align_ties();
   void place_fit_probes();
@@ -169,11 +176,13 @@ class Solver {
   std::pmr::vector<Color> probed_;           // irradiance at each probe
   std::pmr::vector<std::uint8_t> unprobed_;  // of each sample: no probe was near it
   double rays_per_length_ = 0;
-  bool looking_ = false;     // around: direct light alone has its mesh
-  std::uint32_t level_ = 0;  // of the hemispheres
-  std::uint32_t block_ = 0;  // next block of what is under way
+  bool looking_ = false;      // around: direct light alone has its mesh
+  bool sounded_out_ = false;  // how many rays the scene is worth
+  std::uint32_t level_ = 0;   // of the hemispheres
+  std::uint32_t block_ = 0;   // next block of what is under way
   std::uint32_t bounces_ = 0;
   double previous_unshot_ = 0, first_unshot_ = 0;
+  double work_before_standouts_ = 0;  // rays and form factors
   BakeStats stats_;
 };
 

@@ -12,10 +12,12 @@ namespace radvor {
 
 namespace {
 
-// A patch shoots by itself, once, while it has this share of all unshot power, and more than rays make out: a net of N
-// rays is off by the share of light p over sqrt(a) N^0.75 where what it comes from covers the share a of the view. So
-// in a room of few patches none stands out, and links make every later bounce cheaper than one such shot.
-constexpr double k_stands_out = 0.02;
+// A patch shoots by itself, once, while it has more than this many tolerances of the noise that all have together.
+// Where rays are to find a patch of power p and area a, they are off by p / sqrt(a) of it, whatever their number.
+constexpr double k_stands_out = 4.0 / 3;
+
+// Of all rays so far: what may go into such shots. Beside a patch of many small shares one shot is dear.
+constexpr double k_most_spent = 0.25;
 
 constexpr double k_most_ratio = 0.97;  // of a bounce to the one before, as a series
 
@@ -24,7 +26,7 @@ constexpr double k_most_ratio = 0.97;  // of a bounce to the one before, as a se
 // What the sources emitted and lost; what surfaces have to reflect.
 void Solver::account() {
   surface->group_patches();
-  const FateMeter meter(scene, *welded, *visibility_, occluders_, options.seed);
+  const FateMeter meter(scene, *welded, *visibility_, occluders_, options.tolerance, options.seed);
   const FateMeter::Powers powers = meter.of_sources(*light_, host);
   stats_.emitted_power = powers.emitted;
   stats_.escaped_power = powers.escaped;
@@ -50,6 +52,7 @@ void Solver::account() {
     return;
   }
   stood_out_.assign(surface->patch_count(), 0);
+  work_before_standouts_ = static_cast<double>(stats_.rays + stats_.form_factors);
   stage_ = options.max_bounces == 0 ? Stage::standouts : Stage::bounces;
 }
 
@@ -65,24 +68,33 @@ double Solver::unshot_luminance() const {
 // Shoots the patch that stands out farthest at all receivers, while one does: few rays would meet it.
 void Solver::shoot_standout() {
   const auto shares = surface->shares();
-  const double area = receiving_area();
-  const double made_out = options.tolerance * std::pow(k_rays / options.tolerance, 0.75);
-  double total = 0, farthest = 0;
-  std::uint32_t patch = k_none;
-  for (std::uint32_t p = 0; p < surface->patch_count(); ++p) {
-    double power = 0, extent = 0;
+  std::pmr::vector<double> powers(surface->patch_count(), 0.0, &host.memory), areas(powers, &host.memory);
+  double all_power = 0, all_area = 0;
+  for (std::uint32_t p = 0; p < powers.size(); ++p) {
     for (const std::uint32_t s : surface->patch(p)) {
-      power += shares[s].area * luminance(shares[s].albedo * unshot_[s]);
-      extent += shares[s].area;
+      powers[p] += shares[s].area * luminance(shares[s].albedo * unshot_[s]);
+      areas[p] += shares[s].area;
     }
-    total += power;
-    const double out = power / std::max(k_stands_out, made_out * std::sqrt(extent / area));
-    if (out > farthest && stood_out_[p] == 0) {
-      farthest = out;
+    all_power += powers[p];
+    all_area += areas[p];
+  }
+  // Rays that meet a patch of radiosity b among others of mean m differ by b - m, and by m once it has shot: where all
+  // are equally bright there is no noise, and a shot would make some.
+  const double mean = all_area > 0 ? all_power / all_area : 0;
+  double variance = 0, most = 0;
+  std::uint32_t patch = k_none;
+  for (std::uint32_t p = 0; p < powers.size(); ++p) {
+    const double radiosity = areas[p] > 0 ? powers[p] / areas[p] : 0;
+    const double less = areas[p] * radiosity * (radiosity - 2 * mean);
+    variance += areas[p] * (radiosity - mean) * (radiosity - mean);
+    if (less > most && stood_out_[p] == 0) {
+      most = less;
       patch = p;
     }
   }
-  if (patch == k_none || farthest < total) {
+  const double spent = static_cast<double>(stats_.rays + stats_.form_factors) - work_before_standouts_;
+  if (patch == k_none || most < k_stands_out * options.tolerance * variance ||
+      spent > k_most_spent * work_before_standouts_) {
     stage_ = Stage::bounces;
     return;
   }
@@ -96,8 +108,14 @@ void Solver::shoot_standout() {
   }
   tree.pull(light, host);
 
+  // As exact as a part of the light need be that is a tenth of it at most: nodes stand for their elements from near on,
+  // and how much of one is seen a ray to each element tells, or the one look that finds nothing in the way.
   LinkAccuracy accuracy;
-  accuracy.least_rays = 8;
+  accuracy.rays_per_hemisphere = 64;
+  accuracy.least_rays = 1;
+  accuracy.separation = accuracy.leaf_separation = 3;
+  accuracy.clip_above = 0.02;
+  accuracy.splittable = 1e-3;
   over_blocks(0, blocks_->count(), [&](std::uint32_t sample, Tracer& tracer) {
     LinkMaker maker(tree, occluder_tree_ ? &*occluder_tree_ : nullptr, accuracy, &host.memory);
     std::pmr::vector<Link> links(&host.memory);

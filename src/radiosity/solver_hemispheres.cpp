@@ -8,15 +8,13 @@
 #include "base/hash.h"
 #include "radiosity/hemisphere.h"
 #include "radiosity/method.h"
-#include "radiosity/smoothing.h"
 #include "radiosity/solver.h"
 
 namespace radvor {
 
 namespace {
 
-constexpr double k_least_weight = 1e-6;  // of an anchor that matters
-constexpr double k_left_bent = 8;        // tolerances that light may be from linear where the mesh has followed it
+constexpr double k_least_weight = 1e-6;          // of an anchor that matters
 constexpr std::uint32_t k_rays_of_glimpse = 16;  // one packet
 constexpr std::uint64_t k_seed_of_glimpse = 0x676c696d70736573;
 constexpr float k_wide_open = 0.5f;  // share of the view that is sky, from which on its edges matter less
@@ -31,7 +29,7 @@ void Solver::begin_looking() {
   std::iota(pending_.begin(), pending_.end(), 0u);
   std::fill(unprobed_.begin(), unprobed_.end(), std::uint8_t{1});
   known_.assign(direct.size(), 0);
-  share_out_rays();
+  share_out_rays(k_rays);
   stage_ = Stage::hemispheres;
 }
 
@@ -75,31 +73,46 @@ void Solver::begin_level() {
     interpolated_.push_back(i);
     ++stats_.skipped_lazy;
   }
-  std::uint32_t record = hemispheres_->add(static_cast<std::uint32_t>(looking.size()));
-  ray_counts_.clear();
-  first_record_ = record;
-  for (const std::uint32_t sample : looking) {
-    ray_counts_.push_back(rays_for(samples[sample].area) * rays_by_sky(anchors_[sample].samples, glimpsed_[sample]));
-    records_[sample] = record++;
+  first_record_ = hemispheres_->add(static_cast<std::uint32_t>(looking.size()));
+  for (std::uint32_t k = 0; k < looking.size(); ++k) {
+    records_[looking[k]] = first_record_ + k;
   }
   blocks_.emplace(*surface, receivers_, looking, host);
+  if (!sounded_out_) {
+    sound_out_noise();
+    sounded_out_ = true;
+  }
+  ray_counts_.clear();
+  for (const std::uint32_t sample : looking) {
+    ray_counts_.push_back(rays_for(sample));
+  }
+}
+
+// Casts a sample's rays, unless as many of them have been.
+void Solver::look_from(std::uint32_t sample, std::uint32_t rays, Tracer& tracer) {
+  const std::uint32_t record = records_[sample];
+  if (hemispheres_->outlook(record).weight * rays != 1) {
+    hemispheres_->trace(record, receivers_[sample], rays, hash(options.seed, record), *surface, tracer);
+  }
+  outlooks_[sample] = hemispheres_->outlook(record);
 }
 
 // How many rays a sample's hemisphere is worth: of all ways to spend them, in proportion to the root of the area leaves
-// the least area-weighted squared error. As much of it is left as by k_rays / tolerance for each sample.
-void Solver::share_out_rays() {
+// the least area-weighted squared error. As much of it is left as by so many rays for each sample, over the tolerance.
+void Solver::share_out_rays(double rays) {
   double roots = 0, area = 0;
   for (const Sample& sample : surface->samples()) {
     roots += std::sqrt(sample.area);
     area += sample.area;
   }
-  rays_per_length_ = area > 0 ? k_rays / options.tolerance * roots / area : 0;
+  rays_per_length_ = area > 0 ? rays / options.tolerance * roots / area : 0;
 }
 
 // A power of two, so that they are a net.
-std::uint32_t Solver::rays_for(double area) const {
-  const double wanted = std::clamp(rays_per_length_ * std::sqrt(area), k_least_rays, k_most_rays);
-  return std::bit_ceil(static_cast<std::uint32_t>(wanted));
+std::uint32_t Solver::rays_for(std::uint32_t sample) const {
+  const double wanted = rays_per_length_ * std::sqrt(surface->samples()[sample].area);
+  const double bounded = std::clamp(wanted, k_least_rays, k_most_rays);
+  return std::bit_ceil(static_cast<std::uint32_t>(bounded)) * rays_by_sky(anchors_[sample].samples, glimpsed_[sample]);
 }
 
 // A sky that is seen a little of, or perhaps, is worth as many rays again. Their number does not depend on what they
@@ -151,10 +164,7 @@ void Solver::look_around() {
   }
   const std::uint32_t end = next_blocks(4);
   over_blocks(block_, end, [&](std::uint32_t sample, Tracer& tracer) {
-    const std::uint32_t record = records_[sample];
-    const std::uint32_t rays = ray_counts_[record - first_record_];
-    hemispheres_->trace(record, receivers_[sample], rays, hash(options.seed, record), *surface, tracer);
-    outlooks_[sample] = hemispheres_->outlook(record);
+    look_from(sample, ray_counts_[records_[sample] - first_record_], tracer);
     known_[sample] = 1;
   });
   block_ = end;
@@ -170,21 +180,25 @@ void Solver::look_around() {
   for (const std::uint32_t i : pending_) {
     direct[i] += outlooks_[i].open * sky;
   }
-  if ((options.disable & Disable::indirect) == 0) {
-    see_first_bounce();
-  } else {
-    radiosity_.assign(surface->shares().size(), glm::vec3(0.0f));
-  }
+  see_first_bounce();
   stage_ = Stage::refinement;
+}
+
+// radiosity_: what direct light makes shares send.
+void Solver::reflect_direct() {
+  const auto shares = surface->shares();
+  radiosity_.assign(shares.size(), glm::vec3(0.0f));
+  if ((options.disable & Disable::indirect) != 0) {
+    return;
+  }
+  for (std::size_t s = 0; s < shares.size(); ++s) {
+    radiosity_[s] = glm::vec3(shares[s].albedo * direct[shares[s].sample]);
+  }
 }
 
 // What samples get by one reflection of direct light; those that have looked around before, now of the mesh as it is.
 void Solver::see_first_bounce() {
-  const auto shares = surface->shares();
-  radiosity_.resize(shares.size());
-  for (std::size_t s = 0; s < shares.size(); ++s) {
-    radiosity_[s] = glm::vec3(shares[s].albedo * direct[shares[s].sample]);
-  }
+  reflect_direct();
   constexpr std::uint32_t k_block = 256;
   const auto count = static_cast<std::uint32_t>(records_.size());
   host.jobs.for_each((count + k_block - 1) / k_block, [&](std::uint32_t block) {
@@ -195,74 +209,6 @@ void Solver::see_first_bounce() {
     }
   });
   interpolate(interpolated_, first_bounce_);
-}
-
-// The relative standard error of a mean over a hemisphere's rays that differ by so much (their standard deviation over
-// the mean). They are a net, so it falls with the 3/4th power of their number; but what few of them meet is met by
-// chance, and falls with the root alone.
-double Solver::noise_of(std::uint32_t record, double spread) const {
-  return spread * std::pow(hemispheres_->outlook(record).weight, 0.75) * std::pow(1 + spread * spread, 0.25);
-}
-
-// What hemispheres say of sky and surfaces is freed of noise. What was interpolated follows its anchors.
-void Solver::settle_noise() {
-  if (hemispheres_->size() == 0) {
-    return;
-  }
-  std::pmr::vector<Certainty> certain(direct.size(), Certainty{}, &host.memory);
-  std::pmr::vector<Color> sky_light(direct.size(), Color(0.0), &host.memory);
-  std::pmr::vector<Color> punctual(direct.size(), Color(0.0), &host.memory);
-  const Color sky = k_pi * light_->sky_radiance();
-  const auto shares = surface->shares();
-  radiosity_.resize(shares.size());
-  for (std::size_t s = 0; s < shares.size(); ++s) {
-    radiosity_[s] = glm::vec3(shares[s].albedo * (direct[shares[s].sample] + indirect[shares[s].sample]));
-  }
-  const std::uint32_t most_sites = options.spacing.max_sites;
-  const bool follows = options.spacing.refines && (most_sites == 0 || surface->sites().size() < most_sites);
-  const double left_bent = k_left_bent * options.tolerance * 3 * (mean_of(direct) + mean_of(indirect));
-  constexpr std::uint32_t k_block = 256;
-  const auto count = static_cast<std::uint32_t>(direct.size());
-  host.jobs.for_each((count + k_block - 1) / k_block, [&](std::uint32_t block) {
-    for (std::uint32_t i = block * k_block; i < std::min(count, (block + 1) * k_block); ++i) {
-      const Outlook& outlook = outlooks_[i];
-      sky_light[i] = outlook.open * sky;
-      punctual[i] = glm::max(direct[i] - sky_light[i], Color(0.0));
-      certain[i].nearness = outlook.inverse_distance;
-      certain[i].settled = records_[i] == k_none;
-      if (follows && surface->level_of(surface->samples()[i].site) < surface->max_level()) {
-        certain[i].most_bend = left_bent;
-      }
-      certain[i].noise = certain[i].settled ? 0 : noise_of(records_[i], hemispheres_->spread(records_[i], radiosity_));
-    }
-  });
-  const auto follow_noise = [&] {
-    for (const std::uint32_t i : interpolated_) {
-      certain[i].noise = 0;
-      for (std::size_t k = 0; k < 3; ++k) {
-        certain[i].noise += static_cast<double>(anchors_[i].weights[k]) * certain[anchors_[i].samples[k]].noise;
-      }
-    }
-  };
-  follow_noise();
-  const SampleNeighbours neighbours(*surface, host);
-  smooth(*surface, neighbours, certain, indirect, host);
-  interpolate(interpolated_, indirect);
-  if (sum(sky) <= 0) {
-    return;
-  }
-  for (std::size_t i = 0; i < direct.size(); ++i) {
-    const double open = outlooks_[i].open;
-    certain[i].noise = records_[i] != k_none && open > 0 ? noise_of(records_[i], std::sqrt((1 - open) / open)) : 0;
-  }
-  follow_noise();
-  smooth(*surface, neighbours, certain, sky_light, host);
-  interpolate(interpolated_, sky_light);
-  for (std::size_t i = 0; i < direct.size(); ++i) {
-    if (sky_light[i] != outlooks_[i].open * sky) {  // else to the bit as it was
-      direct[i] = punctual[i] + sky_light[i];
-    }
-  }
 }
 
 }  // namespace radvor

@@ -362,6 +362,30 @@ TEST(Standouts, FewBrightPatchesDoNotShootForEver) {
   EXPECT_LT(bake->stats().rays, 300'000u);  // 70,000; over a million where every patch shoots by itself
 }
 
+// A box: by a lamp that lights all of it every ray brings something, by one that lights a spot few bring all.
+TEST(Hemispheres, TakeMoreRaysWhereTheirLightIsLessCertain) {
+  const auto rays_a_site = [](const Light& light) {
+    SceneBuilder builder;
+    const std::uint32_t grey = builder.material(Color(0.5));
+    builder.box({0, 0, 0}, {2, 2, 1}, true, grey);
+    builder.scene.lights = {light};
+    BakeOptions options = coarse(0.02, 0.2);
+    TestBake bake(builder.take(), options);
+    EXPECT_EQ(bake.run(), BakeStatus::converged);
+    return static_cast<double>(bake->stats().rays) / static_cast<double>((*bake).surface().sites().size());
+  };
+  Light everywhere, spot;
+  everywhere.type = LightType::point;
+  everywhere.position = {1, 1, 0.5};
+  everywhere.color = Color(1.0);
+  spot = everywhere;
+  spot.type = LightType::spot;
+  spot.direction = {0, 0, -1};
+  spot.inner_angle = 0.1;
+  spot.outer_angle = 0.2;
+  EXPECT_GT(rays_a_site(spot), 1.8 * rays_a_site(everywhere));
+}
+
 TEST(Disable, IndirectUnderASkyWithRefinement) {
   // Found by a read: probes looked for light that was never shot.
   SceneBuilder builder;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -26,6 +27,52 @@ TEST(Net, HasOnePointInEachBoxUnderEveryScramble) {
       }
     }
   }
+}
+
+// Past the table of the first ones, too.
+TEST(Net, GoesOnBeyondItsTable) {
+  const Net net(3);
+  constexpr std::uint32_t k_count = 1u << 13;
+  std::vector<int> columns(k_count, 0), rows(k_count, 0), squares(k_count, 0);
+  for (std::uint32_t index = 0; index < k_count; ++index) {
+    const Vec2 point = net.point(index);
+    ++columns[static_cast<std::size_t>(point.x * k_count)];
+    ++rows[static_cast<std::size_t>(point.y * k_count)];
+    ++squares[static_cast<std::size_t>(point.x * 64) * 128 + static_cast<std::size_t>(point.y * 128)];
+  }
+  for (const auto& boxes : {columns, rows, squares}) {
+    EXPECT_TRUE(std::all_of(boxes.begin(), boxes.end(), [](int times) { return times == 1; }));
+  }
+}
+
+TEST(SineCosine, AreThoseOfTheLibrary) {
+  for (double angle = -0.7853981634; angle <= 0.7853981634; angle += 1e-3) {
+    const SineCosine turn(angle);
+    EXPECT_NEAR(turn.sine, std::sin(angle), 1e-11);
+    EXPECT_NEAR(turn.cosine, std::cos(angle), 1e-11);
+  }
+}
+
+// Equal areas of the square are equal areas of the disk; rims meet rims.
+TEST(SquareToDisk, KeepsFractionsOfAreaAndSides) {
+  constexpr int k_side = 1000;
+  std::array<int, 16> sectors{};  // four rings of equal area, four quadrants
+  for (int i = 0; i < k_side; ++i) {
+    for (int j = 0; j < k_side; ++j) {
+      const Vec2 p = square_to_disk((2 * i + 1.0) / k_side - 1, (2 * j + 1.0) / k_side - 1);
+      const auto ring = static_cast<std::size_t>(std::min(3.0, 4 * glm::dot(p, p)));
+      ++sectors[4 * ring + (p.x > 0 ? 1u : 0u) + (p.y > 0 ? 2u : 0u)];
+    }
+  }
+  for (const int count : sectors) {
+    EXPECT_NEAR(count, k_side * k_side / 16, k_side);
+  }
+  for (const double t : {-1.0, -0.3, 0.0, 0.8}) {
+    for (const Vec2& p : {square_to_disk(1, t), square_to_disk(-1, t), square_to_disk(t, 1), square_to_disk(t, -1)}) {
+      EXPECT_NEAR(glm::length(p), 1, 1e-11);
+    }
+  }
+  EXPECT_EQ(square_to_disk(0, 0), Vec2(0.0));
 }
 
 TEST(NetOrder, TakesEachPointOnceAndNeighboursTogether) {

@@ -1,0 +1,156 @@
+// What rays leave to chance: how noisy a scene's light is, before most of them are cast, and what neighbours know
+// together after.
+#include <algorithm>
+#include <cmath>
+
+#include "radiosity/method.h"
+#include "radiosity/smoothing.h"
+#include "radiosity/solver.h"
+
+namespace radvor {
+
+namespace {
+
+constexpr double k_left_bent = 8;          // tolerances that light may be from linear where the mesh has followed it
+constexpr double k_most_scaled = 3;        // how far a scene's rays may be from k_rays, to either side
+constexpr std::uint32_t k_soundings = 32;  // blocks of samples
+
+}  // namespace
+
+// The relative standard error of a mean over a hemisphere's rays that differ by so much (their standard deviation over
+// the mean). They are a net, so it falls with the 3/4th power of their number; but what few of them meet is met by
+// chance, and falls with the root alone.
+double Solver::noise_of(std::uint32_t record, double spread) const {
+  return spread * std::pow(hemispheres_->outlook(record).weight, 0.75) * std::pow(1 + spread * spread, 0.25);
+}
+
+double Solver::noise_of_sky(std::uint32_t sample) const {
+  const double open = outlooks_[sample].open;
+  return records_[sample] != k_none && open > 0 ? noise_of(records_[sample], std::sqrt((1 - open) / open)) : 0;
+}
+
+// Some of the first samples cast rays ahead of the others. Where these are less certain than the tolerance, all cast
+// more; where they are more so, fewer: a courtyard under the sky needs fewer than a crypt with a candle. Neighbours
+// will share what they know, so a sample by itself may be as far off as all of the light.
+void Solver::sound_out_noise() {
+  reflect_direct();
+  const double sky = k_pi * sum(light_->sky_radiance());
+  const std::uint32_t count = blocks_->count(), soundings = std::min(count, k_soundings);
+  const auto samples_of = [&](std::uint32_t sounding) {
+    return blocks_->block(static_cast<std::uint32_t>(std::uint64_t{sounding} * count / soundings));
+  };
+  over(0, soundings, [&](std::uint32_t sounding, Tracer& tracer) {
+    for (const std::uint32_t sample : samples_of(sounding)) {
+      look_from(sample, rays_for(sample), tracer);
+    }
+  });
+  double area = 0, light = 0, variance = 0;
+  for (std::uint32_t sounding = 0; sounding < soundings; ++sounding) {
+    for (const std::uint32_t i : samples_of(sounding)) {
+      const double reflected = sum(hemispheres_->gather(records_[i], radiosity_));
+      const double from_sky = outlooks_[i].open * sky;
+      const double error = reflected * noise_of(records_[i], hemispheres_->spread(records_[i], radiosity_));
+      const double error_of_sky = from_sky * noise_of_sky(i);
+      const double of = surface->samples()[i].area;
+      area += of;
+      light += of * (reflected + from_sky);
+      variance += of * (error * error + error_of_sky * error_of_sky);
+    }
+  }
+  const double mean = area > 0 ? light / area + 3 * mean_of(direct) : 0;
+  if (mean > 0) {
+    const double noise = std::sqrt(variance / area) / mean;
+    share_out_rays(k_rays * std::clamp(noise / options.tolerance, 1 / k_most_scaled, k_most_scaled));
+  }
+}
+
+// Of each sample, as its rays say; empty where there is no sky.
+std::pmr::vector<Color> Solver::sky_light() const {
+  std::pmr::vector<Color> light(&host.memory);
+  const Color sky = k_pi * light_->sky_radiance();
+  if (sum(sky) > 0) {
+    light.reserve(outlooks_.size());
+    for (const Outlook& outlook : outlooks_) {
+      light.push_back(outlook.open * sky);
+    }
+  }
+  return light;
+}
+
+// What hemispheres say of sky and surfaces; what was interpolated follows its anchors. reflected: what radiosity_ sends
+// to each sample; sky: of each sample, or empty; bend: see Certainty::most_bend.
+void Solver::free_of_noise(std::pmr::vector<Color>& reflected, std::pmr::vector<Color>& sky, double bend) const {
+  const auto count = static_cast<std::uint32_t>(reflected.size());
+  std::pmr::vector<Certainty> certain(count, Certainty{}, &host.memory);
+  constexpr std::uint32_t k_block = 256;
+  host.jobs.for_each((count + k_block - 1) / k_block, [&](std::uint32_t block) {
+    for (std::uint32_t i = block * k_block; i < std::min(count, (block + 1) * k_block); ++i) {
+      certain[i].nearness = outlooks_[i].inverse_distance;
+      certain[i].settled = records_[i] == k_none;
+      if (surface->level_of(surface->samples()[i].site) < surface->max_level()) {
+        certain[i].most_bend = bend;
+      }
+      certain[i].noise = certain[i].settled ? 0 : noise_of(records_[i], hemispheres_->spread(records_[i], radiosity_));
+    }
+  });
+  const auto follow_noise = [&] {
+    for (const std::uint32_t i : interpolated_) {
+      certain[i].noise = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        certain[i].noise += static_cast<double>(anchors_[i].weights[k]) * certain[anchors_[i].samples[k]].noise;
+      }
+    }
+  };
+  follow_noise();
+  const SampleNeighbours neighbours(*surface, host);
+  smooth(*surface, neighbours, certain, reflected, host);
+  interpolate(interpolated_, reflected);
+  if (sky.empty()) {
+    return;
+  }
+  for (std::uint32_t i = 0; i < count; ++i) {
+    certain[i].noise = noise_of_sky(i);
+  }
+  follow_noise();
+  smooth(*surface, neighbours, certain, sky, host);
+  interpolate(interpolated_, sky);
+}
+
+// For the mesh to follow: direct light and the first bounce. It is not to follow noise.
+std::pmr::vector<Color> Solver::settled_light() const {
+  std::pmr::vector<Color> light(first_bounce_, &host.memory), sky = sky_light();
+  const std::pmr::vector<Color> noisy_sky(sky, &host.memory);
+  free_of_noise(light, sky, Certainty{}.most_bend);
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    light[i] += direct[i];
+  }
+  for (std::size_t i = 0; i < sky.size(); ++i) {
+    light[i] += sky[i] - noisy_sky[i];
+  }
+  return light;
+}
+
+// At the end.
+void Solver::settle_noise() {
+  if (hemispheres_->size() == 0) {
+    return;
+  }
+  const auto shares = surface->shares();
+  radiosity_.resize(shares.size());
+  for (std::size_t s = 0; s < shares.size(); ++s) {
+    radiosity_[s] = glm::vec3(shares[s].albedo * (direct[shares[s].sample] + indirect[shares[s].sample]));
+  }
+  const std::uint32_t most_sites = options.spacing.max_sites;
+  const bool follows = options.spacing.refines && (most_sites == 0 || surface->sites().size() < most_sites);
+  const double left_bent = k_left_bent * options.tolerance * 3 * (mean_of(direct) + mean_of(indirect));
+  std::pmr::vector<Color> sky = sky_light();
+  const std::pmr::vector<Color> noisy_sky(sky, &host.memory);
+  free_of_noise(indirect, sky, follows ? left_bent : Certainty{}.most_bend);
+  for (std::size_t i = 0; i < sky.size(); ++i) {
+    if (sky[i] != noisy_sky[i]) {  // else to the bit as it was
+      direct[i] = glm::max(direct[i] - noisy_sky[i], Color(0.0)) + sky[i];
+    }
+  }
+}
+
+}  // namespace radvor
