@@ -9,9 +9,10 @@ namespace radvor {
 
 inline constexpr double k_pi = 3.14159265358979323846;
 
-/// Rays of one hemisphere, over the tolerance, where all samples have the same area and a scene's light is neither
-/// noisier than others' nor less so; rounded up to a power of two.
-inline constexpr double k_rays = 1.5;
+/// Rays of one hemisphere where all samples have the same area: as many as its other costs are worth, and a part that
+/// grows over the tolerance, by so much where a scene's light is neither noisier than others' nor less so. Rounded up
+/// to a power of two.
+inline constexpr double k_first_rays = 32, k_rays = 1.5;
 inline constexpr double k_least_rays = 16, k_most_rays = 8192;
 
 /// Standard errors of a hemisphere of one ray that noise explains; they fall by N^(-3/4).
@@ -22,7 +23,7 @@ inline constexpr double k_noise = 2;
 inline constexpr double k_reach = 1.5;
 
 /// Of the tolerance: what the mesh may get wrong.
-inline constexpr double k_share_of_mesh = 0.4;
+inline constexpr double k_share_of_mesh = 0.5;
 
 /// Of the tolerance: what may be missing when the bake has converged.
 inline constexpr double k_share_left_unshot = 0.01;

@@ -92,7 +92,7 @@ class Solver {
               std::span<const SampleOrigin> origins);
   void keep_interpolated(std::span<const std::uint32_t> now);
   void begin_level();
-  void share_out_rays(double rays);
+  void share_out_rays(double scale);
   std::uint32_t rays_for(std::uint32_t sample) const;
   void look_from(std::uint32_t sample, std::uint32_t rays, Tracer& tracer);
   std::uint32_t rays_by_sky(std::span<const std::uint32_t, 3> around, float glimpsed) const;

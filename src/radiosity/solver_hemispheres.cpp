@@ -29,7 +29,7 @@ void Solver::begin_looking() {
   std::iota(pending_.begin(), pending_.end(), 0u);
   std::fill(unprobed_.begin(), unprobed_.end(), std::uint8_t{1});
   known_.assign(direct.size(), 0);
-  share_out_rays(k_rays);
+  share_out_rays(1);
   stage_ = Stage::hemispheres;
 }
 
@@ -98,14 +98,14 @@ void Solver::look_from(std::uint32_t sample, std::uint32_t rays, Tracer& tracer)
 }
 
 // How many rays a sample's hemisphere is worth: of all ways to spend them, in proportion to the root of the area leaves
-// the least area-weighted squared error. As much of it is left as by so many rays for each sample, over the tolerance.
-void Solver::share_out_rays(double rays) {
+// the least area-weighted squared error. As much of it is left as if each sample cast as many. scale: see k_rays.
+void Solver::share_out_rays(double scale) {
   double roots = 0, area = 0;
   for (const Sample& sample : surface->samples()) {
     roots += std::sqrt(sample.area);
     area += sample.area;
   }
-  rays_per_length_ = area > 0 ? rays / options.tolerance * roots / area : 0;
+  rays_per_length_ = area > 0 ? (k_first_rays + scale * k_rays / options.tolerance) * roots / area : 0;
 }
 
 // A power of two, so that they are a net.

@@ -60,7 +60,7 @@ void Solver::sound_out_noise() {
   const double mean = area > 0 ? light / area + 3 * mean_of(direct) : 0;
   if (mean > 0) {
     const double noise = std::sqrt(variance / area) / mean;
-    share_out_rays(k_rays * std::clamp(noise / options.tolerance, 1 / k_most_scaled, k_most_scaled));
+    share_out_rays(std::clamp(noise / options.tolerance, 1 / k_most_scaled, k_most_scaled));
   }
 }
 
