@@ -56,15 +56,15 @@ def skips(data):
     for scene, study in data.get("skips", {}).items():
         base = study.get("none")
         for skip, run in study.items():
-            rows.append([scene, "all on" if skip == "none" else f"{skip} off", seconds(run["cpu_seconds"]),
+            rows.append([scene, {"none": "all on", "seed": "all on, another seed"}.get(skip, f"{skip} off"), seconds(run["cpu_seconds"]),
                          f"{run['cpu_seconds'] / base['cpu_seconds']:.2f}", f"{run['rays'] / 1e6:.2f} M",
                          percent(run["error"]["rms"], 2), "–" if skip == "none" else percent(run["moved"], 3)])
     table(["scene", "skips", "processor time", "over all on", "rays", "rms", "light moved by"], rows)
 
 
 def threads(data):
-    table(["scene", "1 thread", "2 threads", "faster", "processor time of 2 over 1", "load"],
-          [[scene, *(seconds(v) for v in row["seconds"].values()), f"{row['speed']:.2f}",
+    table(["scene", "1 thread", "2 threads", "faster", "two bakes side by side", "processor time of 2 over 1", "load"],
+          [[scene, *(seconds(v) for v in row["seconds"].values()), f"{row['speed']:.2f}", f"{row['bound']:.2f}",
             f"{row['cpu_seconds_of_two_over_one']:.2f}", f"{row['load']:.1f}"]
            for scene, row in data.get("threads", {}).items()])
 

@@ -1,5 +1,7 @@
 #include "radiosity/sample_neighbours.h"
 
+#include <algorithm>
+
 namespace radvor {
 
 namespace {
@@ -27,13 +29,43 @@ void for_each_edge(const Surface& surface, OnEdge&& on_edge) {
 
 SampleNeighbours::SampleNeighbours(const Surface& surface, Host& host)
     : first_(surface.samples().size() + 1, 0, &host.memory), list_(&host.memory) {
-  for_each_edge(surface, [&](std::uint32_t from, std::uint32_t) { ++first_[from + 1]; });
-  for (std::size_t i = 1; i < first_.size(); ++i) {
-    first_[i] += first_[i - 1];
+  const auto count = static_cast<std::uint32_t>(surface.samples().size());
+  std::pmr::vector<std::uint32_t> begin(count + 1, 0, &host.memory);
+  for_each_edge(surface, [&](std::uint32_t from, std::uint32_t) { ++begin[from + 1]; });
+  for (std::uint32_t i = 0; i < count; ++i) {
+    begin[i + 1] += begin[i];
+  }
+  std::pmr::vector<std::uint32_t> all(begin.back(), &host.memory), end(begin.begin(), begin.end() - 1, &host.memory);
+  for_each_edge(surface, [&](std::uint32_t from, std::uint32_t to) { all[end[from]++] = to; });
+
+  // Each once: counted first, then written.
+  const auto in_blocks = [&](auto&& on_sample) {
+    constexpr std::uint32_t k_block = 1024;
+    host.jobs.for_each((count + k_block - 1) / k_block, [&](std::uint32_t block) {
+      for (std::uint32_t i = block * k_block; i < std::min(count, (block + 1) * k_block); ++i) {
+        on_sample(i);
+      }
+    });
+  };
+  in_blocks([&](std::uint32_t i) {
+    std::sort(all.begin() + begin[i], all.begin() + end[i]);
+    for (std::uint32_t k = begin[i]; k < end[i]; ++k) {
+      first_[i + 1] += k == begin[i] || all[k] != all[k - 1] ? 1 : 0;
+    }
+  });
+  for (std::uint32_t i = 0; i < count; ++i) {
+    first_[i + 1] += first_[i];
   }
   list_.resize(first_.back());
-  std::pmr::vector<std::uint32_t> next(first_.begin(), first_.end() - 1, &host.memory);
-  for_each_edge(surface, [&](std::uint32_t from, std::uint32_t to) { list_[next[from]++] = to; });
+  in_blocks([&](std::uint32_t i) {
+    std::uint32_t to = first_[i];
+    for (std::uint32_t k = begin[i]; k < end[i]; ++k) {
+      if (k == begin[i] || all[k] != all[k - 1]) {
+        list_[to++] = {all[k], 0};
+      }
+      ++list_[to - 1].triangles;
+    }
+  });
 }
 
 }  // namespace radvor

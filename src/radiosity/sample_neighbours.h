@@ -11,17 +11,26 @@
 
 namespace radvor {
 
+struct Neighbour {
+  std::uint32_t sample;
+  std::uint32_t triangles;  ///< that have the edge: two, or one along borders that are not smooth; more where many meet
+};
+
 class SampleNeighbours {
  public:
   SampleNeighbours(const Surface& surface, Host& host);
 
-  /// Once for each triangle that has the edge: twice, but once along borders that are not smooth.
-  std::span<const std::uint32_t> of(std::uint32_t sample) const {
+  /// In ascending order, each once.
+  std::span<const Neighbour> of(std::uint32_t sample) const {
     return std::span(list_).subspan(first_[sample], first_[sample + 1] - first_[sample]);
   }
+  /// Of a sample's first neighbour among all samples' neighbours.
+  std::uint32_t first(std::uint32_t sample) const { return first_[sample]; }
+  std::size_t size() const { return list_.size(); }
 
  private:
-  std::pmr::vector<std::uint32_t> first_, list_;
+  std::pmr::vector<std::uint32_t> first_;
+  std::pmr::vector<Neighbour> list_;
 };
 
 }  // namespace radvor

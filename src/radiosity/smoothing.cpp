@@ -60,12 +60,14 @@ class Smoother {
         neighbours_(neighbours),
         original_(values.begin(), values.end(), &host.memory),
         before_(&host.memory),
+        edges_(neighbours.size(), &host.memory),
         pooled_(values.size(), &host.memory),
         noise_(&host.memory),
         noise_before_(&host.memory),
         host_(host) {}
 
   void run() {
+    measure_edges();
     pool_noise();
     noise_ = pooled_;
     for (int pass = 0; pass < k_passes; ++pass) {
@@ -80,6 +82,11 @@ class Smoother {
   }
 
  private:
+  struct Edge {
+    Vec2 way;  // in the sample's plane
+    double bend;
+  };
+
   template <class OnSample>
   void for_each_sample(OnSample&& on_sample) {
     const auto count = static_cast<std::uint32_t>(values_.size());
@@ -90,13 +97,22 @@ class Smoother {
     });
   }
 
-  Vec3 apart(std::uint32_t from, std::uint32_t to) const {
-    return sites_[samples_[to].site].position - sites_[samples_[from].site].position;
+  // How neighbours lie to a sample, which every pass asks anew.
+  void measure_edges() {
+    for_each_sample([&](std::uint32_t i) {
+      const Basis basis(samples_[i].normal);
+      const Vec3 from = sites_[samples_[i].site].position;
+      Edge* edge = edges_.data() + neighbours_.first(i);
+      for (const auto& [other, triangles] : neighbours_.of(i)) {
+        const Vec3 way = sites_[samples_[other].site].position - from;
+        *edge++ = {{glm::dot(way, basis.x), glm::dot(way, basis.y)}, bend(i, other, glm::length(way))};
+      }
+    });
   }
 
   // How far light may be from linear between two samples, of the brighter one's value.
-  double bend(std::uint32_t a, std::uint32_t b) const {
-    const double steps = 0.5 * (certain_[a].nearness + certain_[b].nearness) * glm::length(apart(a, b));
+  double bend(std::uint32_t a, std::uint32_t b, double distance) const {
+    const double steps = 0.5 * (certain_[a].nearness + certain_[b].nearness) * distance;
     const double brighter = std::max({sum(original_[a]), sum(original_[b]), 1e-300});
     const double by_mesh = std::max(certain_[a].most_bend, certain_[b].most_bend) / brighter;
     return std::min(k_bend * steps * steps, by_mesh) + (1 - glm::dot(samples_[a].normal, samples_[b].normal));
@@ -118,8 +134,9 @@ class Smoother {
       for_each_sample([&](std::uint32_t i) {
         Said all = before[i];
         double weights = 1;
-        for (const std::uint32_t other : neighbours_.of(i)) {
-          const double bent = bend(i, other) / k_alike_bend, weight = 0.5 / (1 + bent * bent);
+        const Edge* edge = edges_.data() + neighbours_.first(i);
+        for (const auto& [other, triangles] : neighbours_.of(i)) {
+          const double bent = (edge++)->bend / k_alike_bend, weight = 0.5 * triangles / (1 + bent * bent);
           weights += weight;
           all.value += weight * before[other].value;
           all.variance += weight * before[other].variance;
@@ -133,15 +150,15 @@ class Smoother {
   }
 
   void move(std::uint32_t i) {
-    const Basis basis(samples_[i].normal);
     const double own = noise_before_[i] * noise_before_[i];
+    const Edge* edge = edges_.data() + neighbours_.first(i);
     Fit fit;
     fit.add(1, Vec2(0.0), before_[i]);
-    for (const std::uint32_t other : neighbours_.of(i)) {
-      const Vec3 way = apart(i, other);
-      const double noise = noise_before_[other], bent = bend(i, other);
-      const double weight = std::min(own / (noise * noise + bent * bent), 1.0);
-      fit.add(0.5 * weight, {glm::dot(way, basis.x), glm::dot(way, basis.y)}, before_[other]);
+    for (const auto& [other, triangles] : neighbours_.of(i)) {
+      const double noise = noise_before_[other];
+      const double weight = std::min(own / (noise * noise + edge->bend * edge->bend), 1.0);
+      fit.add(0.5 * triangles * weight, edge->way, before_[other]);
+      ++edge;
     }
     Color value;
     double variance = 1;
@@ -163,6 +180,7 @@ class Smoother {
   std::span<Color> values_;
   const SampleNeighbours& neighbours_;
   std::pmr::vector<Color> original_, before_;
+  std::pmr::vector<Edge> edges_;  // as neighbours_ has them
   std::pmr::vector<double> pooled_, noise_, noise_before_;
   Host& host_;
 };
