@@ -20,19 +20,26 @@ constexpr double k_splinter = 1e-12;
 
 std::size_t cut_at_horizon(const Receiver& receiver, std::span<const Vec3> polygon, std::span<Vec3> part) {
   std::size_t size = 0;
+  // A cut through a corner is not that corner twice: a side without length has no plane to be on either side of.
+  const auto add = [&](const Vec3& corner) {
+    if (size == 0 || corner != part[size - 1]) {
+      part[size++] = corner;
+    }
+  };
   Vec3 last = polygon.back();
   double last_height = glm::dot(last - receiver.point, receiver.normal);
   for (const Vec3& corner : polygon) {
     const double height = glm::dot(corner - receiver.point, receiver.normal);
     if ((last_height < 0 && height > 0) || (last_height > 0 && height < 0)) {
-      part[size++] = last + (corner - last) * (last_height / (last_height - height));
+      add(last + (corner - last) * (last_height / (last_height - height)));
     }
     if (height >= 0) {
-      part[size++] = corner;
+      add(corner);
     }
     last = corner;
     last_height = height;
   }
+  size -= size > 1 && part[size - 1] == part[0] ? 1 : 0;
   return size < 3 ? 0 : size;
 }
 

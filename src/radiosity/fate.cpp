@@ -11,7 +11,7 @@ namespace radvor {
 namespace {
 
 constexpr double k_pi = 3.14159265358979323846;
-constexpr std::uint32_t k_least_rays = 256, k_most_rays = 1u << 14;  // of one kind of source
+constexpr std::uint32_t k_least_of_kind = 256, k_most_of_kind = 1u << 14;  // rays of one kind of source
 
 double sum(const Color& color) {
   return color.r + color.g + color.b;
@@ -59,7 +59,7 @@ FateMeter::FateMeter(const Scene& scene, const WeldedScene& welded, const Visibi
   // A share that n rays tell has a standard error of 1 / (2 sqrt(n)) at most.
   const double root = 5 / (2 * tolerance);
   rays_per_kind_ = static_cast<std::uint32_t>(
-      std::clamp(root * root, static_cast<double>(k_least_rays), static_cast<double>(k_most_rays)));
+      std::clamp(root * root, static_cast<double>(k_least_of_kind), static_cast<double>(k_most_of_kind)));
 }
 
 FateMeter::End FateMeter::follow(const Vec3& from, const Vec3& direction) const {
@@ -97,7 +97,7 @@ FateMeter::Powers FateMeter::of_sources(const DirectLight& light, Host& host) co
       power = 2 * k_pi * sum(lamp.color) * ((1 - full) + std::pow(full - outer, 3) / (3 * width * width));
     }
     const std::uint32_t share = rays_per_kind_ / static_cast<std::uint32_t>(punctual.size());
-    sources.push_back({power, std::max(k_least_rays, share)});
+    sources.push_back({power, std::max(k_least_of_kind, share)});
   }
   const auto sky_index = static_cast<std::uint32_t>(sources.size());
   sources.push_back({4 * k_pi * k_pi * radius * radius * sum(light.sky_radiance()), rays_per_kind_});

@@ -9,7 +9,8 @@ namespace radvor {
 
 namespace {
 
-constexpr std::size_t k_batch = 64;  // rays that wait for each other: four packets
+constexpr std::size_t k_batch = 64;           // rays that wait for each other: four packets
+constexpr std::uint32_t k_least_of_many = 4;  // rays to an inner node
 
 // Points of a cell in equal strata of a fan about its centroid. `part` of `count`.
 Vec3 point_of_cell(std::span<const Vec3> polygon, const Vec3& centroid, std::uint32_t part, std::uint32_t count) {
@@ -161,7 +162,8 @@ void LinkMaker::propose(std::uint32_t index, double form_factor, std::uint32_t r
       add(point_of_cell(polygon, node.piece.centroid, i, ray_count), node.piece.normal);
     }
   } else {
-    const std::uint32_t count = std::min(ray_count, node.element_count);
+    // One ray cannot say that a node is seen in part.
+    const std::uint32_t count = std::min(std::max(ray_count, k_least_of_many), node.element_count);
     for (std::uint32_t i = 0; i < count; ++i) {
       const std::uint32_t pick = (2 * i + 1) * node.element_count / (2 * count);
       const TreeNode& leaf = tree_.nodes()[tree_.elements()[node.first_element + pick].node];

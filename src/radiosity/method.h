@@ -9,8 +9,8 @@ namespace radvor {
 
 inline constexpr double k_pi = 3.14159265358979323846;
 
-/// Rays of one hemisphere where all samples have the same area: as many as its other costs are worth, and a part that
-/// grows over the tolerance, by so much where a scene's light is neither noisier than others' nor less so. Rounded up
+/// Rays of one hemisphere where all samples have the same area: the first are as many as its other costs are worth; of
+/// the others, over the tolerance, so many where they leave a sample's light as uncertain as the tolerance. Rounded up
 /// to a power of two.
 inline constexpr double k_first_rays = 32, k_rays = 1.5;
 inline constexpr double k_least_rays = 16, k_most_rays = 8192;

@@ -1,5 +1,5 @@
 // The state of a bake and the steps of its loop. Each step is a unit of work whose order is fixed, small enough for a
-// time slice but for what plans and renumbers the mesh, judges shadows, and ends the bake.
+// time slice but for what plans and renumbers the mesh, sounds out its noise, judges shadows, and ends the bake.
 //
 //   (glimpse, where there is a sky);
 //   direct -> refinement -> (once) silhouettes -> probes, again while they raise sites;
@@ -110,7 +110,7 @@ class Solver {
   double noise_of(std::uint32_t record, double spread) const;
   double noise_of_sky(std::uint32_t sample) const;
   void free_of_noise(std::pmr::vector<Color>& reflected, std::pmr::vector<Color>& sky, double bend) const;
-  std::pmr::vector<Color> settled_light() const;
+  void settle_surroundings();
   std::pmr::vector<Color> sky_light() const;
   void settle_noise();
   void align_ties();
@@ -163,6 +163,9 @@ class Solver {
   std::pmr::vector<glm::vec3> radiosity_;         // of each share: what is being shot
   std::pmr::vector<Color> incoming_;              // irradiance of the bounce under way, each sample
   std::pmr::vector<Color> incoming_before_;       // of the one before
+  std::pmr::vector<Color> settled_;               // of each sample: from all around, freed of noise; for the mesh
+  std::pmr::vector<Color> shot_alone_;            // radiosity of each share that shot in a standout; may be empty
+  std::pmr::vector<Color> from_standouts_;        // irradiance of each sample by them; may be empty
   std::pmr::vector<float> glimpsed_;              // of each sample: share of its view that is sky, a guess
   std::pmr::vector<Color> shown_;                 // between slices; empty: direct as it is
   std::pmr::vector<std::uint8_t> stood_out_;      // patches that have shot by themselves
@@ -182,7 +185,7 @@ class Solver {
   std::uint32_t block_ = 0;   // next block of what is under way
   std::uint32_t bounces_ = 0;
   double previous_unshot_ = 0, first_unshot_ = 0;
-  double work_before_standouts_ = 0;  // rays and form factors
+  std::uint64_t rays_before_standouts_ = 0;
   BakeStats stats_;
 };
 

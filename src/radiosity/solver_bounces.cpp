@@ -1,6 +1,5 @@
 // Reflections: what stands out first, by itself; then everything together, bounce by bounce.
 #include <algorithm>
-#include <cmath>
 
 #include "radiosity/fate.h"
 #include "radiosity/links.h"
@@ -12,11 +11,11 @@ namespace radvor {
 
 namespace {
 
-// A patch shoots by itself, once, while it has more than this many tolerances of the noise that all have together.
-// Where rays are to find a patch of power p and area a, they are off by p / sqrt(a) of it, whatever their number.
+// A patch shoots by itself, once, while that takes away this share of the variance that rays meet, in tolerances: at
+// finer ones there are more rays, and a shot is the cheaper beside them.
 constexpr double k_stands_out = 4.0 / 3;
 
-// Of all rays so far: what may go into such shots. Beside a patch of many small shares one shot is dear.
+// No more shots once they have cast this share of all rays before: beside a patch of many small shares one is dear.
 constexpr double k_most_spent = 0.25;
 
 constexpr double k_most_ratio = 0.97;  // of a bounce to the one before, as a series
@@ -52,7 +51,7 @@ void Solver::account() {
     return;
   }
   stood_out_.assign(surface->patch_count(), 0);
-  work_before_standouts_ = static_cast<double>(stats_.rays + stats_.form_factors);
+  rays_before_standouts_ = stats_.rays;
   stage_ = options.max_bounces == 0 ? Stage::standouts : Stage::bounces;
 }
 
@@ -68,7 +67,8 @@ double Solver::unshot_luminance() const {
 // Shoots the patch that stands out farthest at all receivers, while one does: few rays would meet it.
 void Solver::shoot_standout() {
   const auto shares = surface->shares();
-  std::pmr::vector<double> powers(surface->patch_count(), 0.0, &host.memory), areas(powers, &host.memory);
+  std::pmr::vector<double> powers(surface->patch_count(), 0.0, &host.memory),
+      areas(surface->patch_count(), 0.0, &host.memory);
   double all_power = 0, all_area = 0;
   for (std::uint32_t p = 0; p < powers.size(); ++p) {
     for (const std::uint32_t s : surface->patch(p)) {
@@ -92,24 +92,27 @@ void Solver::shoot_standout() {
       patch = p;
     }
   }
-  const double spent = static_cast<double>(stats_.rays + stats_.form_factors) - work_before_standouts_;
+  const double spent = static_cast<double>(stats_.rays - rays_before_standouts_);
   if (patch == k_none || most < k_stands_out * options.tolerance * variance ||
-      spent > k_most_spent * work_before_standouts_) {
+      spent > k_most_spent * static_cast<double>(rays_before_standouts_)) {
     stage_ = Stage::bounces;
     return;
   }
   stood_out_[patch] = 1;
+  shot_alone_.resize(shares.size(), Color(0.0));
+  from_standouts_.resize(incoming_.size(), Color(0.0));
   const ShootingTree tree(*surface, std::span(&patch, 1), host);
   std::pmr::vector<NodeLight> light(tree.nodes().size(), NodeLight{}, &host.memory);
   for (const Element& element : tree.elements()) {
     light[element.node].radiosity = shares[element.share].albedo * unshot_[element.share];
     lose(element.share, light[element.node].radiosity);
+    shot_alone_[element.share] += light[element.node].radiosity;
     unshot_[element.share] = Color(0.0);
   }
   tree.pull(light, host);
 
-  // As exact as a part of the light need be that is a tenth of it at most: nodes stand for their elements from near on,
-  // and how much of one is seen a ray to each element tells, or the one look that finds nothing in the way.
+  // As exact as one patch's light need be: nodes stand for their elements from near on, and how much of one is seen a
+  // few rays tell, or the one look that finds nothing in the way.
   LinkAccuracy accuracy;
   accuracy.rays_per_hemisphere = 64;
   accuracy.least_rays = 1;
@@ -128,6 +131,7 @@ void Solver::shoot_standout() {
   interpolate(interpolated_, incoming_);
   for (std::size_t i = 0; i < incoming_.size(); ++i) {
     indirect[i] += incoming_[i];
+    from_standouts_[i] += incoming_[i];
   }
   for (std::size_t s = 0; s < shares.size(); ++s) {
     unshot_[s] += incoming_[shares[s].sample];

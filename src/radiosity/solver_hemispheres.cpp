@@ -88,17 +88,19 @@ void Solver::begin_level() {
   }
 }
 
-// Casts a sample's rays, unless as many of them have been.
+// Casts a sample's rays, unless as many of them, or more, have been.
 void Solver::look_from(std::uint32_t sample, std::uint32_t rays, Tracer& tracer) {
   const std::uint32_t record = records_[sample];
-  if (hemispheres_->outlook(record).weight * rays != 1) {
+  const double weight = hemispheres_->outlook(record).weight;
+  if (weight == 0 || weight * rays > 1) {
     hemispheres_->trace(record, receivers_[sample], rays, hash(options.seed, record), *surface, tracer);
   }
   outlooks_[sample] = hemispheres_->outlook(record);
 }
 
 // How many rays a sample's hemisphere is worth: of all ways to spend them, in proportion to the root of the area leaves
-// the least area-weighted squared error. As much of it is left as if each sample cast as many. scale: see k_rays.
+// the least area-weighted squared error. As much of it is left as if every
+// sample cast the rays that method.h tells of, k_rays scaled.
 void Solver::share_out_rays(double scale) {
   double roots = 0, area = 0;
   for (const Sample& sample : surface->samples()) {

@@ -27,8 +27,14 @@ void renumber(std::pmr::vector<Value>& values, std::span<const SampleOrigin> ori
 // Raises the mesh's level where the light so far demands it; the new samples' light is next. Where it demands nothing
 // more, the next kind of light is due.
 void Solver::refine() {
-  const std::pmr::vector<Color> settled = looking_ ? settled_light() : std::pmr::vector<Color>(&host.memory);
-  const std::span<const Color> light = looking_ ? settled : direct;
+  std::pmr::vector<Color> light(direct, &host.memory);
+  if (options.spacing.refines && looking_) {
+    settle_surroundings();
+    const Color sky = k_pi * light_->sky_radiance();
+    for (std::size_t i = 0; i < light.size(); ++i) {
+      light[i] += settled_[i] - outlooks_[i].open * sky;
+    }
+  }
   if (options.spacing.refines && round_ < 2 * surface->max_level()) {
     const double mean = mean_of(light);
     const RefinementGoal goal{k_share_of_mesh * options.tolerance, k_local * options.tolerance, mean};

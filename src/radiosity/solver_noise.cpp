@@ -29,9 +29,9 @@ double Solver::noise_of_sky(std::uint32_t sample) const {
   return records_[sample] != k_none && open > 0 ? noise_of(records_[sample], std::sqrt((1 - open) / open)) : 0;
 }
 
-// Some of the first samples cast rays ahead of the others. Where these are less certain than the tolerance, all cast
-// more; where they are more so, fewer: a courtyard under the sky needs fewer than a crypt with a candle. Neighbours
-// will share what they know, so a sample by itself may be as far off as all of the light.
+// Some of the first samples cast rays ahead of the others. Where one sample's light is less certain than the tolerance,
+// all cast more; where it is more so, fewer: a courtyard under the sky needs fewer than a crypt with a candle. As
+// certain as the tolerance is enough, since neighbours share what they know.
 void Solver::sound_out_noise() {
   reflect_direct();
   const double sky = k_pi * sum(light_->sky_radiance());
@@ -40,7 +40,7 @@ void Solver::sound_out_noise() {
     return blocks_->block(static_cast<std::uint32_t>(std::uint64_t{sounding} * count / soundings));
   };
   over(0, soundings, [&](std::uint32_t sounding, Tracer& tracer) {
-    for (const std::uint32_t sample : samples_of(sounding)) {
+    for (const std::uint32_t sample : samples_of(sounding)) {  // none is known yet: how many rays depends on no other
       look_from(sample, rays_for(sample), tracer);
     }
   });
@@ -51,16 +51,18 @@ void Solver::sound_out_noise() {
       const double from_sky = outlooks_[i].open * sky;
       const double error = reflected * noise_of(records_[i], hemispheres_->spread(records_[i], radiosity_));
       const double error_of_sky = from_sky * noise_of_sky(i);
-      const double of = surface->samples()[i].area;
-      area += of;
-      light += of * (reflected + from_sky);
-      variance += of * (error * error + error_of_sky * error_of_sky);
+      const double part = surface->samples()[i].area;
+      area += part;
+      light += part * (reflected + from_sky);
+      variance += part * (error * error + error_of_sky * error_of_sky);
     }
   }
   const double mean = area > 0 ? light / area + 3 * mean_of(direct) : 0;
-  if (mean > 0) {
-    const double noise = std::sqrt(variance / area) / mean;
-    share_out_rays(std::clamp(noise / options.tolerance, 1 / k_most_scaled, k_most_scaled));
+  const double scale = std::sqrt(variance / area) / mean / options.tolerance;
+  if (std::isfinite(scale)) {  // else there is no light, or more than can be counted
+    // Rays that found nothing, though something shines, do not know how much they missed.
+    const double least = light > 0 || mean_of(direct) <= 0 ? 1 / k_most_scaled : 1;
+    share_out_rays(std::clamp(scale, least, k_most_scaled));
   }
 }
 
@@ -116,21 +118,17 @@ void Solver::free_of_noise(std::pmr::vector<Color>& reflected, std::pmr::vector<
   interpolate(interpolated_, sky);
 }
 
-// For the mesh to follow: direct light and the first bounce. It is not to follow noise.
-std::pmr::vector<Color> Solver::settled_light() const {
-  std::pmr::vector<Color> light(first_bounce_, &host.memory), sky = sky_light();
-  const std::pmr::vector<Color> noisy_sky(sky, &host.memory);
-  free_of_noise(light, sky, Certainty{}.most_bend);
-  for (std::size_t i = 0; i < light.size(); ++i) {
-    light[i] += direct[i];
-  }
+// For the mesh to follow: what comes from all around by the first bounce. It is not to follow noise.
+void Solver::settle_surroundings() {
+  settled_.assign(first_bounce_.begin(), first_bounce_.end());
+  std::pmr::vector<Color> sky = sky_light();
+  free_of_noise(settled_, sky, Certainty{}.most_bend);
   for (std::size_t i = 0; i < sky.size(); ++i) {
-    light[i] += sky[i] - noisy_sky[i];
+    settled_[i] += sky[i];
   }
-  return light;
 }
 
-// At the end.
+// At the end. What patches shot by themselves no ray had to find.
 void Solver::settle_noise() {
   if (hemispheres_->size() == 0) {
     return;
@@ -138,14 +136,21 @@ void Solver::settle_noise() {
   const auto shares = surface->shares();
   radiosity_.resize(shares.size());
   for (std::size_t s = 0; s < shares.size(); ++s) {
-    radiosity_[s] = glm::vec3(shares[s].albedo * (direct[shares[s].sample] + indirect[shares[s].sample]));
+    const Color sent = shares[s].albedo * (direct[shares[s].sample] + indirect[shares[s].sample]);
+    radiosity_[s] = glm::vec3(shot_alone_.empty() ? sent : glm::max(sent - shot_alone_[s], Color(0.0)));
   }
   const std::uint32_t most_sites = options.spacing.max_sites;
   const bool follows = options.spacing.refines && (most_sites == 0 || surface->sites().size() < most_sites);
   const double left_bent = k_left_bent * options.tolerance * 3 * (mean_of(direct) + mean_of(indirect));
   std::pmr::vector<Color> sky = sky_light();
   const std::pmr::vector<Color> noisy_sky(sky, &host.memory);
+  for (std::size_t i = 0; i < from_standouts_.size(); ++i) {
+    indirect[i] -= from_standouts_[i];
+  }
   free_of_noise(indirect, sky, follows ? left_bent : Certainty{}.most_bend);
+  for (std::size_t i = 0; i < from_standouts_.size(); ++i) {
+    indirect[i] += from_standouts_[i];
+  }
   for (std::size_t i = 0; i < sky.size(); ++i) {
     if (sky[i] != noisy_sky[i]) {  // else to the bit as it was
       direct[i] = glm::max(direct[i] - noisy_sky[i], Color(0.0)) + sky[i];

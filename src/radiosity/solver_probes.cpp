@@ -12,7 +12,8 @@ namespace radvor {
 
 namespace {
 
-constexpr double k_probed = 0.1;  // of the squared tolerance: share of the area that a triangle is probed from
+constexpr double k_probed = 0.1;    // of the squared tolerance: share of the area that a triangle is probed from
+constexpr double k_probe_rays = 2;  // of a hemisphere, over the tolerance
 
 }  // namespace
 
@@ -59,7 +60,7 @@ Color Solver::punctual_light(const Receiver& receiver, Tracer& tracer) const {
 
 std::uint32_t Solver::probe_rays() const {
   return std::bit_ceil(
-      static_cast<std::uint32_t>(std::clamp(k_rays / 2 / options.tolerance, k_least_rays, k_most_rays)));
+      static_cast<std::uint32_t>(std::clamp(k_probe_rays / options.tolerance, k_least_rays, k_most_rays)));
 }
 
 void Solver::place_probes_due() {
@@ -89,7 +90,6 @@ std::pmr::vector<std::uint32_t> Solver::wrong_between() const {
     light[i] += first_bounce_[i];
   }
   const double mean = mean_of(light);
-  const Color sky = k_pi * light_->sky_radiance();
   const double noise = looking_ ? k_noise * std::pow(probe_rays(), -0.75) : 0;
   struct Wrong {
     double score;
@@ -106,7 +106,7 @@ std::pmr::vector<std::uint32_t> Solver::wrong_between() const {
     const Probe& probe = probes_[k];
     double expected = 0;
     for (const std::uint32_t sample : probe.samples) {
-      expected += sum(looking_ ? outlooks_[sample].open * sky + first_bounce_[sample] : direct[sample]) / 9;
+      expected += sum(looking_ ? settled_[sample] : direct[sample]) / 9;
     }
     const double found = sum(probed_[k]) / 3;
     const double unexplained = std::max(0.0, std::abs(found - expected) - noise * std::max(found, expected));

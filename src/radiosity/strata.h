@@ -15,7 +15,7 @@ struct SineCosine {
   double sine, cosine;
 
   explicit SineCosine(double angle) {
-    // From the last term inwards, each a factor of the one before.
+    // Horner's scheme: each term is the one before it times what follows the 1.
     const double s = angle * angle;
     sine = angle * (1 - s * (1.0 / 6) *
                             (1 - s * (1.0 / 20) * (1 - s * (1.0 / 42) * (1 - s * (1.0 / 72) * (1 - s * (1.0 / 110))))));
