@@ -9,8 +9,7 @@ namespace radvor {
 
 namespace {
 
-constexpr std::size_t k_batch = 64;           // rays that wait for each other: four packets
-constexpr std::uint32_t k_least_of_many = 4;  // rays to an inner node
+constexpr std::size_t k_batch = 64;  // rays that wait for each other: four packets
 
 // Points of a cell in equal strata of a fan about its centroid. `part` of `count`.
 Vec3 point_of_cell(std::span<const Vec3> polygon, const Vec3& centroid, std::uint32_t part, std::uint32_t count) {
@@ -108,7 +107,7 @@ void LinkMaker::open(Pending pending, const Receiver& receiver, Tracer& tracer) 
   } else {
     ++tracer.counters.form_factors;
     form_factor =
-        whole && distance >= accuracy_.leaf_separation * node.radius
+        whole && distance >= accuracy_.separation * node.radius
             ? kernel_form_factor(x, n, node.piece)
             : polygon_form_factor(x, n, tree_.polygon(tree_.elements()[node.first_element]), node.piece.normal);
   }
@@ -162,8 +161,7 @@ void LinkMaker::propose(std::uint32_t index, double form_factor, std::uint32_t r
       add(point_of_cell(polygon, node.piece.centroid, i, ray_count), node.piece.normal);
     }
   } else {
-    // One ray cannot say that a node is seen in part.
-    const std::uint32_t count = std::min(std::max(ray_count, k_least_of_many), node.element_count);
+    const std::uint32_t count = std::min(std::max(ray_count, accuracy_.least_of_many), node.element_count);
     for (std::uint32_t i = 0; i < count; ++i) {
       const std::uint32_t pick = (2 * i + 1) * node.element_count / (2 * count);
       const TreeNode& leaf = tree_.nodes()[tree_.elements()[node.first_element + pick].node];

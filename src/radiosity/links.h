@@ -27,16 +27,17 @@ struct Link {
 /// What the node sends along the link, W m^-2.
 Color sent_along(const Link& link, std::span<const NodeLight> light);
 
-/// How much a link may cost and how wrong it may be.
+/// How much a link may cost and how wrong it may be: as exact as one patch's light need be. Nodes stand for their
+/// elements from near on; how much of one is seen a few rays tell, or the one look that finds nothing in the way.
 struct LinkAccuracy {
-  double rays_per_hemisphere = 1024;  ///< a node gets this times its form factor, within the bounds below
-  std::uint32_t least_rays = 4;       ///< for any node
+  double rays_per_hemisphere = 64;  ///< a node gets this times its form factor, within the bounds below
+  std::uint32_t least_rays = 1;     ///< for a leaf
+  std::uint32_t least_of_many = 4;  ///< for an inner node: one ray cannot say that it is seen in part
   std::uint32_t most_rays = 16;
-  double separation = 5;          ///< an inner node stands for its elements from this many radii on
-  double leaf_separation = 6;     ///< a leaf's kernel stands for its polygon from this many radii on
-  std::size_t most_clipped = 24;  ///< a leaf whose rays disagree is clipped by up to so many triangles
-  double clip_above = 1e-3;       ///< a node of less than this form factor is left to rays
-  double splittable = 2e-4;       ///< an inner node of more than this form factor is opened where its rays disagree
+  double separation = 3;          ///< a node stands for its elements, a leaf for its polygon, from this many radii on
+  std::size_t most_clipped = 24;  ///< a node is clipped by up to so many triangles
+  double clip_above = 0.02;       ///< a node of less than this form factor is left to rays
+  double splittable = 1e-3;       ///< an inner node of more than this form factor is opened where its rays disagree
 };
 
 /// The links of one receiver into the trees under `roots`, appended to `links`.

@@ -111,16 +111,8 @@ void Solver::shoot_standout() {
   }
   tree.pull(light, host);
 
-  // As exact as one patch's light need be: nodes stand for their elements from near on, and how much of one is seen a
-  // few rays tell, or the one look that finds nothing in the way.
-  LinkAccuracy accuracy;
-  accuracy.rays_per_hemisphere = 64;
-  accuracy.least_rays = 1;
-  accuracy.separation = accuracy.leaf_separation = 3;
-  accuracy.clip_above = 0.02;
-  accuracy.splittable = 1e-3;
   over_blocks(0, blocks_->count(), [&](std::uint32_t sample, Tracer& tracer) {
-    LinkMaker maker(tree, occluder_tree_ ? &*occluder_tree_ : nullptr, accuracy, &host.memory);
+    LinkMaker maker(tree, occluder_tree_ ? &*occluder_tree_ : nullptr, {}, &host.memory);
     std::pmr::vector<Link> links(&host.memory);
     maker.make(receivers_[sample], tree.roots(), tracer, links);
     incoming_[sample] = Color(0.0);
