@@ -77,12 +77,13 @@ FateMeter::Powers FateMeter::of_sources(const DirectLight& light, Host& host) co
     double power;
     std::uint32_t rays;
   };
-  // In order: punctual lights, the sky, emitters; each kind shares its rays out, emitters by power.
+  // In order: punctual lights, the sky, emitters. Each kind shares its rays out by power.
   const auto punctual = light.punctual_lights();
   const auto emitters = light.emitters();
   const Vec3 middle = 0.5 * (welded_.low + welded_.high);
   const double radius = std::max(0.5 * glm::length(welded_.high - welded_.low), 1e-9) * (1 + 1e-6);
   std::pmr::vector<Source> sources(&host.memory);
+  double shone = 0;
   for (const Light& lamp : punctual) {
     double power = 0;
     if (lamp.type == LightType::directional) {
@@ -96,8 +97,15 @@ FateMeter::Powers FateMeter::of_sources(const DirectLight& light, Host& host) co
       const double full = std::min(1.0, outer + width);
       power = 2 * k_pi * sum(lamp.color) * ((1 - full) + std::pow(full - outer, 3) / (3 * width * width));
     }
-    const std::uint32_t share = rays_per_kind_ / static_cast<std::uint32_t>(punctual.size());
-    sources.push_back({power, std::max(k_least_of_kind, share)});
+    sources.push_back({power, 0});
+    shone += power;
+  }
+  const auto rays_of = [&](double power, double all, std::uint32_t least) {
+    const double share = power / all;
+    return share > 0 ? std::max(least, static_cast<std::uint32_t>(rays_per_kind_ * std::min(share, 1.0))) : least;
+  };
+  for (Source& source : sources) {
+    source.rays = rays_of(source.power, shone, k_least_of_kind);
   }
   const auto sky_index = static_cast<std::uint32_t>(sources.size());
   sources.push_back({4 * k_pi * k_pi * radius * radius * sum(light.sky_radiance()), rays_per_kind_});
@@ -107,7 +115,7 @@ FateMeter::Powers FateMeter::of_sources(const DirectLight& light, Host& host) co
   }
   for (const Emitter& emitter : emitters) {
     const double power = emitter.area * sum(emitter.radiosity);
-    sources.push_back({power, std::max(1u, static_cast<std::uint32_t>(rays_per_kind_ * power / emitted))});
+    sources.push_back({power, rays_of(power, emitted, 1)});
   }
 
   const auto ray = [&](std::uint32_t source, std::uint32_t index) {
