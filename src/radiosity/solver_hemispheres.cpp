@@ -99,8 +99,8 @@ void Solver::look_from(std::uint32_t sample, std::uint32_t rays, Tracer& tracer)
 }
 
 // How many rays a sample's hemisphere is worth: of all ways to spend them, in proportion to the root of the area leaves
-// the least area-weighted squared error. As much of it is left as if every
-// sample cast the rays that method.h tells of, k_rays scaled.
+// the least area-weighted squared error. As much of it is left as if every sample cast the rays that method.h tells of,
+// k_rays scaled.
 void Solver::share_out_rays(double scale) {
   double roots = 0, area = 0;
   for (const Sample& sample : surface->samples()) {
