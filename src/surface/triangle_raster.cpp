@@ -7,7 +7,7 @@ namespace radvor {
 
 void TriangleRaster::fill(const delaunay::Triangulation& triangulation) {
   constexpr std::uint32_t k_few = 16;
-  constexpr double k_squares_a_vertex = 4;
+  constexpr double k_squares_a_vertex = 2;
   triangles_.clear();
   const auto positions = triangulation.positions();
   if (positions.size() < k_few) {

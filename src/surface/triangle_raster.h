@@ -15,7 +15,7 @@ class TriangleRaster {
  public:
   explicit TriangleRaster(std::pmr::memory_resource* memory) : triangles_(memory) {}
 
-  /// About four squares a vertex; none where there are few vertices.
+  /// About two squares a vertex; none where there are few vertices.
   void fill(const delaunay::Triangulation& triangulation);
 
   /// A real triangle near the point, or delaunay::k_none.
