@@ -362,6 +362,24 @@ TEST(Standouts, FewBrightPatchesDoNotShootForEver) {
   EXPECT_LT(bake->stats().rays, 300'000u);  // 70,000; over a million where every patch shoots by itself
 }
 
+// A lamp over the middle of a square, half a side above it, sends a sixth of its light there: a face of a cube.
+TEST(Energy, LampsShareTheRaysThatAccountForThemByPower) {
+  SceneBuilder builder;
+  builder.quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, builder.material(Color(0.0)));
+  Light lamp;
+  lamp.type = LightType::point;
+  lamp.position = {0, 0, 1};
+  for (int i = 0; i < 64; ++i) {  // all but one are next to nothing
+    lamp.color = Color(i == 40 ? 1.0 : 1e-9);
+    builder.scene.lights.push_back(lamp);
+  }
+  TestBake bake(builder.take(), coarse(0.02, 0.5));
+  ASSERT_EQ(bake.run(), BakeStatus::converged);
+  const BakeStats& stats = bake->stats();
+  EXPECT_NEAR(stats.emitted_power, 4 * k_pi * 3, 1e-4);
+  EXPECT_NEAR(stats.escaped_power / stats.emitted_power, 5.0 / 6, 0.003);  // a fifth of the tolerance would be 0.004
+}
+
 // A box: by a lamp that lights all of it every ray brings something, by one that lights a spot few bring all.
 TEST(Hemispheres, TakeMoreRaysWhereTheirLightIsLessCertain) {
   const auto rays_a_site = [](const Light& light) {
