@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "bake/modes.h"
+#include "kept_memory.h"
 
 namespace {
 
@@ -87,6 +88,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  bake::keep_freed_memory();
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {

@@ -8,6 +8,7 @@
 #include "baked_scene.h"
 #include "failure.h"
 #include "gltf_file.h"
+#include "kept_memory.h"
 #include "obj_file.h"
 #include "options.h"
 #include "output_file.h"
@@ -118,6 +119,7 @@ int run(int argc, const char* const* argv) {
 }  // namespace bake
 
 int main(int argc, char** argv) {
+  bake::keep_freed_memory();
   try {
     return bake::run(argc, argv);
   } catch (const bake::Failure& failure) {

@@ -2,6 +2,8 @@
 // What runs is the same for any number of threads, and so are the bytes that come out.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <memory_resource>
 #include <type_traits>
@@ -31,6 +33,14 @@ class Jobs {
     run(
         count, [](void* data, std::uint32_t index) { (*static_cast<Plain*>(data))(index); },
         const_cast<void*>(static_cast<const void*>(&function)));
+  }
+
+  /// Calls function(begin, end) for ranges of at most `size` that together are 0 to count.
+  template <class Function>
+  void for_ranges(std::size_t count, std::size_t size, Function&& function) const {
+    for_each(static_cast<std::uint32_t>((count + size - 1) / size), [&](std::uint32_t range) {
+      function(range * size, std::min(count, (range + 1) * size));
+    });
   }
 
   /// Runs function on one thread in an arena of that one thread: for libraries that bring their own parallelism

@@ -42,55 +42,66 @@ void place_orphans(std::span<const Share> before, std::span<const std::uint32_t>
 
 // A new site takes part in every triangle that it makes another of: so all corners of triangles that are no more are
 // corners of triangles with a new one.
-void mark_divided(std::span<const std::uint32_t> samples_now, const Surface& surface,
-                  std::pmr::vector<std::uint8_t>& divided) {
+void mark_divided(std::uint32_t facet, std::span<const std::uint8_t> is_new, const Surface& surface,
+                  std::span<std::uint8_t> divided) {
   const auto shares = surface.shares();
-  std::pmr::vector<std::uint8_t> is_new(surface.samples().size(), 1, divided.get_allocator());
-  for (const std::uint32_t sample : samples_now) {
-    if (sample != k_none) {
-      is_new[sample] = 0;
+  for (const ShareTriangle& triangle : surface.triangles(facet)) {
+    if (std::none_of(triangle.begin(), triangle.end(), [&](auto s) { return is_new[shares[s].sample] != 0; })) {
+      continue;
     }
-  }
-  for (std::uint32_t facet = 0; facet < surface.facets().facets.size(); ++facet) {
-    for (const ShareTriangle& triangle : surface.triangles(facet)) {
-      if (std::none_of(triangle.begin(), triangle.end(), [&](auto s) { return is_new[shares[s].sample] != 0; })) {
-        continue;
-      }
-      for (const std::uint32_t share : triangle) {
-        divided[share] = 1;
-        if (shares[share].other_side != k_none) {
-          divided[shares[share].other_side] = 1;
-        }
+    for (const std::uint32_t share : triangle) {
+      divided[share] = 1;
+      if (shares[share].other_side != k_none) {
+        divided[shares[share].other_side] = 1;
       }
     }
   }
 }
 
+void mark_divided(std::span<const std::uint32_t> samples_now, const Surface& surface, std::span<std::uint8_t> divided,
+                  Host& host) {
+  std::pmr::vector<std::uint8_t> is_new(surface.samples().size(), 1, &host.memory);
+  for (const std::uint32_t sample : samples_now) {
+    if (sample != k_none) {
+      is_new[sample] = 0;
+    }
+  }
+  // Shares belong to one facet, both sides of them: tasks do not meet.
+  host.jobs.for_ranges(surface.facets().facets.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (auto facet = static_cast<std::uint32_t>(begin); facet < end; ++facet) {
+      mark_divided(facet, is_new, surface, divided);
+    }
+  });
+}
+
 }  // namespace
 
 ShareChanges follow_shares(std::span<const Share> before, std::span<const std::uint32_t> sites_before,
-                           std::span<const std::uint32_t> samples_now, const Surface& surface,
-                           std::pmr::memory_resource* memory) {
+                           std::span<const std::uint32_t> samples_now, const Surface& surface, Host& host) {
   const auto shares = surface.shares();
   const auto samples = surface.samples();
-  ShareChanges changes{std::pmr::vector<std::uint32_t>(before.size(), k_none, memory),
-                       std::pmr::vector<std::uint8_t>(shares.size(), 0, memory)};
-  std::pmr::vector<std::uint32_t> orphans(memory);
-  for (std::uint32_t s = 0; s < before.size(); ++s) {
-    const std::uint32_t sample = samples_now[before[s].sample];
-    std::uint32_t share = sample == k_none ? k_none : samples[sample].first_share;
-    while (share != k_none && !alike(shares[share], before[s])) {
-      share = shares[share].next_in_sample;
+  ShareChanges changes{std::pmr::vector<std::uint32_t>(before.size(), k_none, &host.memory),
+                       std::pmr::vector<std::uint8_t>(shares.size(), 0, &host.memory)};
+  host.jobs.for_ranges(before.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) {
+      const std::uint32_t sample = samples_now[before[s].sample];
+      std::uint32_t share = sample == k_none ? k_none : samples[sample].first_share;
+      while (share != k_none && !alike(shares[share], before[s])) {
+        share = shares[share].next_in_sample;
+      }
+      changes.now[s] = share;
     }
-    changes.now[s] = share;
-    if (share == k_none) {
+  });
+  std::pmr::vector<std::uint32_t> orphans(&host.memory);
+  for (std::uint32_t s = 0; s < before.size(); ++s) {
+    if (changes.now[s] == k_none) {
       orphans.push_back(s);
     }
   }
   if (!orphans.empty()) {
     place_orphans(before, sites_before, orphans, surface, changes);
   }
-  mark_divided(samples_now, surface, changes.divided);
+  mark_divided(samples_now, surface, changes.divided, host);
   return changes;
 }
 

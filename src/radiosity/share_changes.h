@@ -18,7 +18,6 @@ struct ShareChanges {
 /// before: the old shares; sites_before: the site of each old sample; samples_now: the number of each old sample,
 /// k_none where it is no more. surface: as it is now.
 ShareChanges follow_shares(std::span<const Share> before, std::span<const std::uint32_t> sites_before,
-                           std::span<const std::uint32_t> samples_now, const Surface& surface,
-                           std::pmr::memory_resource* memory);
+                           std::span<const std::uint32_t> samples_now, const Surface& surface, Host& host);
 
 }  // namespace radvor

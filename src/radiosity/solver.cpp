@@ -154,11 +154,14 @@ std::uint32_t Solver::next_blocks(std::uint32_t per_thread) const {
 }
 
 void Solver::place_receivers() {
-  receivers_.clear();
-  receivers_.reserve(surface->samples().size());
-  for (const Sample& sample : surface->samples()) {
-    receivers_.push_back({sample.point, sample.point + sample.facet_normal * visibility_->lift(), sample.normal});
-  }
+  const auto samples = surface->samples();
+  receivers_.resize(samples.size());
+  host.jobs.for_ranges(samples.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Sample& sample = samples[i];
+      receivers_[i] = {sample.point, sample.point + sample.facet_normal * visibility_->lift(), sample.normal};
+    }
+  });
 }
 
 // Direct light of one source on some blocks of receivers.

@@ -90,6 +90,8 @@ class Solver {
   void begin_looking();
   void follow(std::span<const Share> before, std::span<const std::uint32_t> before_sites,
               std::span<const SampleOrigin> origins);
+  template <class Value>
+  void renumber(std::pmr::vector<Value>& values, std::span<const SampleOrigin> origins, const Value& unknown);
   void keep_interpolated(std::span<const std::uint32_t> now);
   void begin_level();
   void share_out_rays(double scale);

@@ -11,16 +11,7 @@ namespace {
 
 constexpr double k_local = 5;  // tolerances that a place may be off relative to its own light
 
-template <class Value>
-void renumber(std::pmr::vector<Value>& values, std::span<const SampleOrigin> origins, const Value& unknown) {
-  std::pmr::vector<Value> now(origins.size(), unknown, values.get_allocator());
-  for (std::size_t i = 0; i < origins.size(); ++i) {
-    if (origins[i].kept) {
-      now[i] = values[origins[i].samples[0]];
-    }
-  }
-  values.swap(now);
-}
+constexpr std::size_t k_range = 4096;  // samples of a task that does little to each
 
 }  // namespace
 
@@ -57,11 +48,14 @@ bool Solver::raise(std::span<const std::uint32_t> raised) {
   if (raised.empty() || (most != 0 && surface->sites().size() >= most)) {
     return false;
   }
-  const std::pmr::vector<Share> before(surface->shares().begin(), surface->shares().end(), &host.memory);
+  std::pmr::vector<Share> before(&host.memory);
   std::pmr::vector<std::uint32_t> before_sites(&host.memory);
-  before_sites.reserve(direct.size());
-  for (const Sample& sample : surface->samples()) {
-    before_sites.push_back(sample.site);
+  if (hemispheres_->size() > 0) {
+    before.assign(surface->shares().begin(), surface->shares().end());
+    before_sites.reserve(direct.size());
+    for (const Sample& sample : surface->samples()) {
+      before_sites.push_back(sample.site);
+    }
   }
   const auto origins = surface->refine(raised, most);
   follow(before, before_sites, origins);
@@ -72,6 +66,19 @@ bool Solver::raise(std::span<const std::uint32_t> raised) {
   source_ = 0;
   stage_ = Stage::direct;
   return true;
+}
+
+template <class Value>
+void Solver::renumber(std::pmr::vector<Value>& values, std::span<const SampleOrigin> origins, const Value& unknown) {
+  std::pmr::vector<Value> now(origins.size(), unknown, values.get_allocator());
+  host.jobs.for_ranges(origins.size(), k_range, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (origins[i].kept) {
+        now[i] = values[origins[i].samples[0]];
+      }
+    }
+  });
+  values.swap(now);
 }
 
 // Renumbers what is known of samples and shares after a refinement; new samples are pending.
@@ -88,28 +95,22 @@ void Solver::follow(std::span<const Share> before, std::span<const std::uint32_t
     }
   }
   renumber(anchors_, origins, k_unanchored);
-  for (const std::uint32_t sample : pending_) {
-    anchors_[sample] = origins[sample];
-  }
-  for (SampleOrigin& anchor : anchors_) {
-    bool all = anchor.samples[0] != k_none;
-    for (std::size_t k = 0; all && k < 3; ++k) {
-      anchor.samples[k] = now[anchor.samples[k]];
-      all = anchor.samples[k] != k_none;
+  std::pmr::vector<float> glimpsed(origins.size(), memory);
+  host.jobs.for_ranges(origins.size(), k_range, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      SampleOrigin& anchor = anchors_[i];
+      anchor = origins[i].kept ? anchor : origins[i];
+      bool all = anchor.samples[0] != k_none;
+      for (std::size_t k = 0; all && k < 3; ++k) {
+        anchor.samples[k] = now[anchor.samples[k]];
+        all = anchor.samples[k] != k_none;
+      }
+      anchor = all ? anchor : k_unanchored;
+      for (std::size_t k = 0; k < 3; ++k) {
+        glimpsed[i] += origins[i].weights[k] * glimpsed_[origins[i].samples[k]];
+      }
     }
-    if (!all) {
-      anchor = k_unanchored;
-    }
-  }
-  std::pmr::vector<float> glimpsed(memory);
-  glimpsed.reserve(origins.size());
-  for (const SampleOrigin& origin : origins) {
-    float open = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      open += origin.weights[k] * glimpsed_[origin.samples[k]];
-    }
-    glimpsed.push_back(open);
-  }
+  });
   glimpsed_.swap(glimpsed);
   renumber(direct, origins, Color(0.0));
   renumber(sights_, origins, std::uint64_t{0});
@@ -123,7 +124,7 @@ void Solver::follow(std::span<const Share> before, std::span<const std::uint32_t
 
   place_receivers();
   if (hemispheres_->size() > 0) {
-    hemispheres_->follow(*surface, follow_shares(before, before_sites, now, *surface, memory));
+    hemispheres_->follow(*surface, follow_shares(before, before_sites, now, *surface, host));
   }
   blocks_.emplace(*surface, receivers_, pending_, host);
 }

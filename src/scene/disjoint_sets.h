@@ -15,6 +15,9 @@ class DisjointSets {
     std::iota(parents_.begin(), parents_.end(), 0u);
   }
 
+  /// Whether it is the smallest of its set.
+  bool is_first(std::uint32_t member) const { return parents_[member] == member; }
+
   std::uint32_t find(std::uint32_t member) {
     while (parents_[member] != member) {
       parents_[member] = parents_[parents_[member]];

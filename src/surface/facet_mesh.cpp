@@ -36,6 +36,9 @@ bool FacetMesh::needed(const FacetInput& input) {
 }
 
 void FacetMesh::number_shares(std::uint32_t first) {
+  if (first == 0) {
+    return;
+  }
   for (auto* triangles : {&triangles_, &plain_triangles_}) {
     for (ShareTriangle& triangle : *triangles) {
       for (std::uint32_t& share : triangle) {

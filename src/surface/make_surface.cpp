@@ -17,6 +17,8 @@ namespace radvor {
 
 namespace {
 
+constexpr std::size_t k_facets = 16;  // of a task that does little to each
+
 // Ranges of things of about equal weight: what one task does.
 template <class Weight>
 std::pmr::vector<std::uint32_t> even_ranges(std::uint32_t count, double weight, Weight&& weight_of,
@@ -164,6 +166,7 @@ class SurfaceMaker {
 
   // Shares of all facets; sites that are still without a number, in facets built now.
   void number() {
+    const std::pmr::vector<FacetRecord> before(parts_.records, parts_.memory);
     std::uint32_t shares = 0;
     for (std::uint32_t facet = 0; facet < parts_.records.size(); ++facet) {
       FacetRecord& record = parts_.records[facet];
@@ -176,11 +179,18 @@ class SurfaceMaker {
       } else {
         const auto drafted = static_cast<std::uint32_t>(parts_.drafts[record.mesh].shares.size());
         record.share_count = drafted > 0 ? drafted : record.share_count;  // else it is as it was
-        parts_.meshes[record.mesh]->number_shares(shares - record.first_share);
       }
       record.first_share = shares;
       shares += record.two_sided ? 2 * record.share_count : record.share_count;
     }
+    parts_.host.jobs.for_ranges(before.size(), k_facets, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t facet = begin; facet < end; ++facet) {
+        const FacetRecord& record = parts_.records[facet];
+        if (record.first_share != k_none && record.mesh != k_none) {
+          parts_.meshes[record.mesh]->number_shares(record.first_share - before[facet].first_share);
+        }
+      }
+    });
     std::uint32_t degenerate = 0;
     for (const std::uint32_t facet : facets_) {
       if (parts_.records[facet].mesh != k_none) {
@@ -251,28 +261,31 @@ class SurfaceMaker {
 
   // What has not changed, under its new numbers.
   void copy_shares(const SurfaceBefore& before) {
-    for (std::uint32_t facet = 0; facet < parts_.records.size(); ++facet) {
-      const FacetRecord& record = parts_.records[facet];
-      if (record.first_share == k_none || before.is_changed(facet)) {
-        continue;
-      }
-      const std::uint32_t from = before.records[facet].first_share;
-      const std::uint32_t count = record.two_sided ? 2 * record.share_count : record.share_count;
-      for (std::uint32_t k = 0; k < count; ++k) {
-        Share& share = parts_.shares[record.first_share + k];
-        share = before.shares[from + k];
-        share.sample = share.next_in_sample = k_none;
-        if (share.other_side != k_none) {
-          share.other_side += record.first_share - from;
+    parts_.host.jobs.for_ranges(parts_.records.size(), k_facets, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t facet = begin; facet < end; ++facet) {
+        if (parts_.records[facet].first_share != k_none && !before.is_changed(static_cast<std::uint32_t>(facet))) {
+          copy_shares(before, parts_.records[facet], before.records[facet].first_share);
         }
       }
-      const auto copy = [&](const auto& old, auto& now) {
-        std::copy_n(old.begin() + from, count, now.begin() + record.first_share);
-      };
-      copy(before.details.site, parts_.details.site);
-      copy(before.details.normal, parts_.details.normal);
-      copy(before.details.receiver, parts_.details.receiver);
+    });
+  }
+
+  void copy_shares(const SurfaceBefore& before, const FacetRecord& record, std::uint32_t from) {
+    const std::uint32_t count = record.two_sided ? 2 * record.share_count : record.share_count;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      Share& share = parts_.shares[record.first_share + k];
+      share = before.shares[from + k];
+      share.sample = share.next_in_sample = k_none;
+      if (share.other_side != k_none) {
+        share.other_side += record.first_share - from;
+      }
     }
+    const auto copy = [&](const auto& old, auto& now) {
+      std::copy_n(old.begin() + from, count, now.begin() + record.first_share);
+    };
+    copy(before.details.site, parts_.details.site);
+    copy(before.details.normal, parts_.details.normal);
+    copy(before.details.receiver, parts_.details.receiver);
   }
 
   // Of the facets built now.

@@ -1,6 +1,7 @@
 #include "surface/sample_origins.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "surface/facet_location.h"
 
@@ -20,6 +21,8 @@ SurfaceBefore::SurfaceBefore(SurfaceParts& parts, std::span<const std::uint32_t>
 
 namespace {
 
+constexpr std::size_t k_facets = 16, k_samples = 1024;  // of a task
+
 class OriginFinder {
  public:
   OriginFinder(const SurfaceParts& parts, const SurfaceBefore& before)
@@ -27,16 +30,16 @@ class OriginFinder {
 
   // Shares that were there before, on unchanged facets and of old sites on changed ones.
   void match_shares(std::span<const std::uint32_t> changed) {
-    for (std::uint32_t facet = 0; facet < parts_.records.size(); ++facet) {
-      const FacetRecord& record = parts_.records[facet];
-      if (record.first_share == k_none || before_.is_changed(facet)) {
-        continue;
+    parts_.host.jobs.for_ranges(parts_.records.size(), k_facets, [&](std::size_t begin, std::size_t end) {
+      for (auto facet = static_cast<std::uint32_t>(begin); facet < end; ++facet) {
+        const FacetRecord& record = parts_.records[facet];
+        if (record.first_share != k_none && !before_.is_changed(facet)) {
+          const auto first = old_share_.begin() + record.first_share;
+          const std::uint32_t count = record.two_sided ? 2 * record.share_count : record.share_count;
+          std::iota(first, first + count, before_.records[facet].first_share);
+        }
       }
-      const std::uint32_t count = record.two_sided ? 2 * record.share_count : record.share_count;
-      for (std::uint32_t k = 0; k < count; ++k) {
-        old_share_[record.first_share + k] = before_.records[facet].first_share + k;
-      }
-    }
+    });
     parts_.host.jobs.for_each(static_cast<std::uint32_t>(changed.size()), [&](std::uint32_t k) {
       const std::uint32_t facet = changed[k];
       const FacetMesh* mesh = triangulation(parts_.records[facet].mesh);
@@ -54,10 +57,8 @@ class OriginFinder {
 
   std::pmr::vector<SampleOrigin> origins() const {
     std::pmr::vector<SampleOrigin> found(parts_.samples.size(), parts_.memory);
-    constexpr std::uint32_t k_chunk = 1024;
-    const auto count = static_cast<std::uint32_t>(found.size());
-    parts_.host.jobs.for_each((count + k_chunk - 1) / k_chunk, [&](std::uint32_t chunk) {
-      for (std::uint32_t index = chunk * k_chunk; index < std::min(count, (chunk + 1) * k_chunk); ++index) {
+    parts_.host.jobs.for_ranges(found.size(), k_samples, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t index = begin; index < end; ++index) {
         found[index] = origin(parts_.samples[index]);
       }
     });

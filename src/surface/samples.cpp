@@ -1,5 +1,6 @@
 // Samples: shares at one site that smooth edges join are one receiver.
 #include <cmath>
+#include <utility>
 
 #include "scene/disjoint_sets.h"
 #include "surface/surface_parts.h"
@@ -7,6 +8,8 @@
 namespace radvor {
 
 namespace {
+
+constexpr std::size_t k_range = 4096;
 
 class SampleMaker {
  public:
@@ -80,31 +83,45 @@ class SampleMaker {
     }
   }
 
+  // A set's smallest member makes the sample. Most are alone in it, so what goes side by side is all but the joining.
   void collect() {
     const auto count = static_cast<std::uint32_t>(parts_.shares.size());
-    std::pmr::vector<std::uint32_t> last(parts_.memory);  // per sample: its latest share
+    const Jobs& jobs = parts_.host.jobs;
+    std::pmr::vector<std::uint32_t> first_of_range((count + k_range - 1) / k_range, parts_.memory);
+    jobs.for_ranges(count, k_range, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t index = begin; index < end; ++index) {
+        first_of_range[begin / k_range] += sets_.is_first(static_cast<std::uint32_t>(index)) ? 1 : 0;
+      }
+    });
+    std::uint32_t total = 0;
+    for (std::uint32_t& first : first_of_range) {
+      total += std::exchange(first, total);
+    }
+    parts_.samples.resize(total);
+    std::pmr::vector<std::uint32_t> last(total, parts_.memory);  // per sample: its latest share
+    jobs.for_ranges(count, k_range, [&](std::size_t begin, std::size_t end) {
+      std::uint32_t next = first_of_range[begin / k_range];
+      for (auto index = static_cast<std::uint32_t>(begin); index < end; ++index) {
+        if (sets_.is_first(index)) {
+          parts_.samples[next].site = parts_.details.site[index];
+          parts_.samples[next].first_share = last[next] = index;
+          parts_.shares[index].sample = next++;
+        }
+      }
+    });
     for (std::uint32_t index = 0; index < count; ++index) {
-      Share& share = parts_.shares[index];
-      const std::uint32_t root = sets_.find(index);
-      if (root == index) {  // a set's smallest member: its sample is new
-        share.sample = static_cast<std::uint32_t>(parts_.samples.size());
-        Sample& sample = parts_.samples.emplace_back();
-        sample.site = parts_.details.site[index];
-        sample.first_share = index;
-        last.push_back(index);
-      } else {
-        share.sample = parts_.shares[root].sample;
-        parts_.shares[last[share.sample]].next_in_sample = index;
-        last[share.sample] = index;
+      if (!sets_.is_first(index)) {
+        const std::uint32_t sample = parts_.shares[sets_.find(index)].sample;
+        parts_.shares[index].sample = sample;
+        parts_.shares[last[sample]].next_in_sample = index;
+        last[sample] = index;
       }
     }
   }
 
   void finish() {
-    constexpr std::uint32_t k_chunk = 1024;
-    const auto count = static_cast<std::uint32_t>(parts_.samples.size());
-    parts_.host.jobs.for_each((count + k_chunk - 1) / k_chunk, [&](std::uint32_t chunk) {
-      for (std::uint32_t index = chunk * k_chunk; index < std::min(count, (chunk + 1) * k_chunk); ++index) {
+    parts_.host.jobs.for_ranges(parts_.samples.size(), k_range, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t index = begin; index < end; ++index) {
         finish(parts_.samples[index]);
       }
     });

@@ -78,7 +78,7 @@ class Links : public testing::Test {
       }
     }
     const ShareChanges changes =
-        follow_shares(shares, sites_before, now, made.surface, std::pmr::get_default_resource());
+        follow_shares(shares, sites_before, now, made.surface, made.host);
     gather.follow(made.surface, changes);
   }
 
