@@ -21,8 +21,6 @@ namespace radvor {
 struct InnerSite {
   Vec2 position;  ///< exact
   std::uint32_t site;
-  bool is_centre;  ///< of a patch: on level 0 of the lattice and there from the start, or given
-  bool on_lattice = true;
 };
 
 /// All that a facet's triangles are made from.
@@ -52,7 +50,6 @@ struct FacetShare {
   std::uint32_t vertex;                 ///< in the facet's triangulation
   std::uint32_t site = k_none;          ///< shared with other facets, or k_none
   std::uint32_t inner_vertex = k_none;  ///< welded vertex that is a site in this facet alone, or k_none
-  std::uint32_t patch = k_none;         ///< of the facet's own patches, or k_none
   SourceSide source;
   Vec2 position{0.0};
   Vec2 centroid{0.0};
@@ -70,36 +67,24 @@ struct BorderPiece {
 /// shares and lattice are let go once the surface's shares are made of them; the others stay.
 struct FacetDraft {
   explicit FacetDraft(std::pmr::memory_resource* memory)
-      : shares(memory), lattice(memory), patches(memory), pieces(memory), joined(memory) {}
+      : shares(memory), lattice(memory), pieces(memory), joined(memory) {}
 
   void clear() {
     shares.clear();
     lattice.clear();
-    patches.clear();
     pieces.clear();
     joined.clear();
-    patch_count = 0;
   }
 
-  /// Keeps of the shares what patches are made from.
   void let_go() {
-    patches.clear();
-    if (patch_count > 0) {
-      patches.reserve(shares.size());
-      for (const FacetShare& share : shares) {
-        patches.push_back(share.patch);
-      }
-    }
     std::pmr::vector<FacetShare>(shares.get_allocator()).swap(shares);
     std::pmr::vector<LatticeIndex>(lattice.get_allocator()).swap(lattice);
   }
 
   std::pmr::vector<FacetShare> shares;
   std::pmr::vector<LatticeIndex> lattice;                 ///< of the first elements' level: the inner sites found
-  std::pmr::vector<std::uint32_t> patches;                ///< per share, where the facet has patches of its own
   std::pmr::vector<BorderPiece> pieces;                   ///< of edges that irradiance is shared across
   std::pmr::vector<std::array<std::uint32_t, 2>> joined;  ///< shares that are one sample within the facet
-  std::uint32_t patch_count = 0;
 };
 
 }  // namespace radvor

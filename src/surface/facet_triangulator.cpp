@@ -2,23 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "base/error.h"
-#include "scene/disjoint_sets.h"
 #include "surface/border.h"
 #include "surface/facet_outline.h"
 #include "surface/interior_sites.h"
-#include "surface/lattice_patches.h"
 #include "surface/receiver_point.h"
 #include "surface/triangle_cells.h"
 
 namespace radvor {
 
 namespace {
-
-// A facet has patches of its own if it is at least this part of one; smaller ones are grouped with their neighbours.
-constexpr double k_least_patch = 0.5;
 
 // The triangles' area must be the facet's up to what rounding and slight bends explain; if it is not, the outline
 // folded when it was rounded into the plane.
@@ -42,9 +36,6 @@ FacetTriangulator::FacetTriangulator(const FacetInput& input, FacetMesh& mesh, F
       first_of_chain_(input.memory),
       borders_(input.memory),
       inner_(input.memory),
-      walls_(input.memory),
-      centres_(input.memory),
-      given_centres_(input.memory),
       share_at_(input.memory) {}
 
 bool FacetTriangulator::run() {
@@ -57,7 +48,6 @@ bool FacetTriangulator::run() {
       triangulation.mark_domain();
       if (insert_inner(triangulation) && find_shares(triangulation) && find_triangles(triangulation) &&
           find_sources(triangulation)) {
-        find_patches();
         return true;
       }
     }
@@ -104,9 +94,6 @@ bool FacetTriangulator::insert_borders(delaunay::Triangulation& triangulation) {
     const Edge& ends = in_.welded.edges[edge.edge];
     const Segment segment{triangulation.position(corner(ends.a)), triangulation.position(corner(ends.b))};
     (edge.flags == delaunay::constraint::k_border ? borders_ : inner_).push_back(segment);
-    if (edge.flags & delaunay::constraint::k_blocking) {
-      walls_.push_back(segment);
-    }
     const EdgeLine line = in_.borders.line(edge.edge);
     first_of_chain_.push_back(static_cast<std::uint32_t>(chains_.size()));
     chains_.push_back(corner(ends.a));
@@ -161,11 +148,6 @@ bool FacetTriangulator::insert_inner(delaunay::Triangulation& triangulation) {
   for (const InnerSite& inner : known) {
     points.push_back(inner.position);
     mesh_.sites_.push_back(inner.site);
-    if (inner.is_centre && inner.on_lattice) {
-      centres_.push_back(lattice.nearest(0, inner.position));
-    } else if (inner.is_centre) {
-      given_centres_.push_back(inner.position);
-    }
   }
   if (!in_.inner) {
     find_lattice_sites(lattice, points);
@@ -184,12 +166,8 @@ void FacetTriangulator::find_lattice_sites(const FacetLattice& lattice, std::pmr
   find_interior_sites(lattice, level, borders_, obstacles, k_half_spacing * lattice.column(level), draft_.lattice,
                       in_.memory);
   points.reserve(points.size() + draft_.lattice.size());
-  const std::int64_t step = std::int64_t{1} << level;
   for (const LatticeIndex& index : draft_.lattice) {
     points.push_back(lattice.point(level, index));
-    if (FacetLattice::coarsest_level(level, index) == 0) {
-      centres_.push_back({index.i / step, index.j / step});
-    }
   }
   mesh_.sites_.resize(mesh_.sites_.size() + draft_.lattice.size(), k_none);
 }
@@ -270,58 +248,6 @@ bool FacetTriangulator::find_sources(const delaunay::Triangulation& triangulatio
     }
   }
   return true;
-}
-
-void FacetTriangulator::find_patches() {
-  const FacetLattice& lattice = *mesh_.lattice_;
-  if (in_.facet().area < k_least_patch * lattice.cell_area()) {
-    return;
-  }
-  const LatticePatches patches(lattice, centres_, given_centres_, walls_, in_.memory);
-  draft_.patch_count = patches.count();
-  if (patches.count() > 0) {
-    for (FacetShare& share : draft_.shares) {
-      share.patch = patches.nearest(share.position, share.receiver);
-    }
-    if (!in_.facets.contacts.of_facet(in_.index).empty()) {
-      gather_cut_off();
-    }
-  }
-}
-
-// Shares that see no site of level 0 become patches of their own, each on one side of every contact: what is lit and
-// what is dark must not shoot together.
-void FacetTriangulator::gather_cut_off() {
-  DisjointSets regions(static_cast<std::uint32_t>(draft_.shares.size()), in_.memory);
-  for (const ShareTriangle& triangle : mesh_.triangles_) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = triangle[k];
-      const std::uint32_t b = triangle[(k + 1) % 3];
-      if (draft_.shares[a].patch == k_none && draft_.shares[b].patch == k_none) {
-        regions.unite(a, b);
-      }
-    }
-  }
-  struct Place {
-    std::uint32_t region;
-    double row, column;  // of squares as wide as patches
-    std::uint32_t share;
-    auto tie() const { return std::tie(region, row, column); }
-  };
-  std::pmr::vector<Place> places(in_.memory);
-  for (std::uint32_t s = 0; s < draft_.shares.size(); ++s) {
-    if (draft_.shares[s].patch == k_none) {
-      const Vec2 square = (draft_.shares[s].position - low_) / in_.options.patch_spacing;
-      places.push_back({regions.find(s), std::floor(square.y), std::floor(square.x), s});
-    }
-  }
-  std::ranges::sort(places, [](const Place& x, const Place& y) {
-    return x.tie() != y.tie() ? x.tie() < y.tie() : x.share < y.share;
-  });
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    draft_.patch_count += k == 0 || places[k].tie() != places[k - 1].tie() ? 1 : 0;
-    draft_.shares[places[k].share].patch = draft_.patch_count - 1;
-  }
 }
 
 }  // namespace radvor

@@ -30,8 +30,6 @@ class FacetTriangulator {
   bool find_shares(const delaunay::Triangulation& triangulation);
   bool find_triangles(const delaunay::Triangulation& triangulation);
   bool find_sources(const delaunay::Triangulation& triangulation);
-  void find_patches();
-  void gather_cut_off();
   delaunay::VertexId corner(std::uint32_t welded_vertex) const;
 
   const FacetInput& in_;
@@ -41,10 +39,7 @@ class FacetTriangulator {
   std::pmr::vector<delaunay::VertexId> chains_;     // per outline edge: its a, the sites inside, its b
   std::pmr::vector<std::uint32_t> first_of_chain_;  // per outline edge, and one past the last
   std::pmr::vector<Segment> borders_, inner_;       // outline edges: of the domain, and within it
-  std::pmr::vector<Segment> walls_;                 // those that cells end at
-  std::pmr::vector<LatticeIndex> centres_;          // of patches, on level 0
-  std::pmr::vector<Vec2> given_centres_;
-  std::pmr::vector<std::uint32_t> share_at_;  // per half-edge: share of its origin, in its triangle
+  std::pmr::vector<std::uint32_t> share_at_;        // per half-edge: share of its origin, in its triangle
   Vec2 low_{0.0}, high_{0.0};
 };
 

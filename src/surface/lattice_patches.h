@@ -15,7 +15,7 @@ namespace radvor {
 class LatticePatches {
  public:
   /// centres: the facet's sites of level 0, in any order; given: more of them off the lattice; walls: what sites do not
-  /// see across.
+  /// see across, kept by reference as the lattice is.
   LatticePatches(const FacetLattice& lattice, std::span<const LatticeIndex> centres, std::span<const Vec2> given,
                  std::span<const Segment> walls, std::pmr::memory_resource* memory);
 

@@ -100,7 +100,7 @@ class SurfaceMaker {
       for (; next < found.size() && found[next].facet == facet; ++next) {
         const Vec2& position = found[next].position;
         if (ground.encloses(position) && ground.clearance(position, 2 * clear) >= clear && apart.add(position)) {
-          parts_.given.push_back({position, static_cast<std::uint32_t>(parts_.sites.size()), true, false});
+          parts_.given.push_back({position, static_cast<std::uint32_t>(parts_.sites.size())});
           parts_.sites.emplace_back().position = parts_.facets.facets[facet].frame.to_world(position);
           parts_.places.resize(parts_.sites.size());
           parts_.places.back().facet = facet;

@@ -36,10 +36,13 @@ void resolve_gaps(Surface& surface, const SurfaceOptions& options, std::uint32_t
   for (auto wide = sites_wider_than_gaps(surface, options, memory); !wide.empty() && surface.sites().size() < most;
        wide = sites_wider_than_gaps(surface, options, memory)) {
     const std::size_t before = surface.sites().size();
-    surface.refine(wide, static_cast<std::uint32_t>(most));
+    surface.raise(wide, static_cast<std::uint32_t>(most));
     if (surface.sites().size() == before) {
       break;  // the next one would lead beyond
     }
+  }
+  if (surface.sites().size() > first) {
+    surface.refine({});
   }
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "surface/facet_patches.h"
 #include "surface/lattice.h"
 #include "surface/patch_groups.h"
 #include "surface/surface_parts.h"
@@ -16,16 +17,18 @@ constexpr double k_whole_extent = 0.5;  // in patch spacings: up to this a facet
 
 class PatchMaker {
  public:
-  explicit PatchMaker(SurfaceParts& parts) : parts_(parts), members_(parts.memory), ranges_(parts.memory) {}
+  explicit PatchMaker(SurfaceParts& parts)
+      : parts_(parts),
+        own_counts_(parts.records.size(), 0, parts.memory),
+        members_(parts.memory),
+        ranges_(parts.memory) {}
 
   void run() {
-    for (Share& share : parts_.shares) {
-      share.patch = k_none;
-    }
+    find_own();
     for (std::uint32_t facet = 0; facet < parts_.records.size(); ++facet) {
       const FacetRecord& record = parts_.records[facet];
       if (record.first_share != k_none) {
-        take_own(record);
+        number_own(record, own_counts_[facet]);
         gather(facet, record.first_share);
         if (record.two_sided) {
           gather(facet, record.first_share + record.share_count);
@@ -41,15 +44,35 @@ class PatchMaker {
     std::uint32_t first, end;  // shares
   };
 
-  void take_own(const FacetRecord& record) {
-    const std::uint32_t own = record.mesh == k_none ? 0 : parts_.drafts[record.mesh].patch_count;
+  // Numbered from 0 in each facet.
+  void find_own() {
+    constexpr std::size_t k_facets = 16;  // of a task
+    parts_.host.jobs.for_ranges(parts_.records.size(), k_facets, [&](std::size_t begin, std::size_t end) {
+      std::pmr::vector<std::uint32_t> patch_of(parts_.memory);
+      for (auto facet = static_cast<std::uint32_t>(begin); facet < end; ++facet) {
+        const FacetRecord& record = parts_.records[facet];
+        if (record.first_share != k_none) {
+          patch_of.resize(record.share_count);
+          own_counts_[facet] = find_own_patches(parts_, facet, patch_of);
+          for (std::uint32_t k = 0; k < record.share_count; ++k) {
+            Share& front = parts_.shares[record.first_share + k];
+            front.patch = patch_of[k];
+            if (record.two_sided) {
+              parts_.shares[front.other_side].patch = patch_of[k];
+            }
+          }
+        }
+      }
+    });
+  }
+
+  void number_own(const FacetRecord& record, std::uint32_t own) {
     for (std::uint32_t k = 0; own > 0 && k < record.share_count; ++k) {
-      const std::uint32_t patch = parts_.drafts[record.mesh].patches[k];
-      if (patch != k_none) {
-        const std::uint32_t front = record.first_share + k;
-        parts_.shares[front].patch = count_ + patch;
+      Share& front = parts_.shares[record.first_share + k];
+      if (front.patch != k_none) {
+        front.patch += count_;
         if (record.two_sided) {
-          parts_.shares[parts_.shares[front].other_side].patch = count_ + own + patch;
+          parts_.shares[front.other_side].patch += count_ + own;
         }
       }
     }
@@ -127,6 +150,7 @@ class PatchMaker {
   }
 
   SurfaceParts& parts_;
+  std::pmr::vector<std::uint32_t> own_counts_;  // per facet: patches of its own
   std::pmr::vector<PatchMember> members_;
   std::pmr::vector<Range> ranges_;  // per member
   std::uint32_t count_ = 0;

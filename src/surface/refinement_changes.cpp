@@ -89,9 +89,7 @@ ChangedFacets Refinement::take_changes() {
                                                   [](const InnerSite& a, std::uint32_t b) { return a.site < b; }));
         return;
       }
-      const std::int64_t whole = std::int64_t{1} << lattice_finest_;
-      const bool is_centre = parts_.sites[site].level == 0 && place.index.i % whole == 0 && place.index.j % whole == 0;
-      changed.inner.push_back({ground(facet).lattice().point(lattice_finest_, place.index), site, is_centre, true});
+      changed.inner.push_back({ground(facet).lattice().point(lattice_finest_, place.index), site});
     };
     const auto given = parts_.given_on(facet);
     changed.inner.insert(changed.inner.end(), given.begin(), given.end());

@@ -24,7 +24,7 @@ void Refinement::insert(std::span<const WantedSite> wanted, std::uint32_t max_si
     const std::uint8_t level = level_at(wish.facet, point);
     const std::uint32_t site =
         append(ground(wish.facet).frame().to_world(point), level, {wish.facet, false, {0, 0}}, 0);
-    irregular_.push_back({point, site, false, false});
+    irregular_.push_back({point, site});
     grounds_[ground_of_[wish.facet]]->add(irregular_.back());
     raised_.clear();
     follow_marks(site, wish.facet, point);

@@ -40,24 +40,29 @@ Surface::~Surface() {
 std::pmr::vector<SampleOrigin> Surface::refine(std::span<const std::uint32_t> sites, std::uint32_t max_sites,
                                                std::span<const WantedSite> wanted) {
   const FloatingPointGuard guard(Denormals::keep);
-  for (const std::uint32_t site : sites) {
-    if (site >= state_->sites.size()) {
-      throw Error(ErrorCode::invalid_argument, "there is no site %u", site);
-    }
-  }
   for (const WantedSite& wish : wanted) {
     if (wish.facet >= state_->records.size()) {
       throw Error(ErrorCode::invalid_argument, "there is no facet %u", wish.facet);
     }
   }
+  raise(sites, max_sites);
+  state_->first_of_patch.clear();
+  state_->patch_members.clear();
+  state_->refinement->insert(wanted, max_sites);
+  return remake_surface(*state_, state_->refinement->take_changes());
+}
+
+void Surface::raise(std::span<const std::uint32_t> sites, std::uint32_t max_sites) {
+  const FloatingPointGuard guard(Denormals::keep);
+  for (const std::uint32_t site : sites) {
+    if (site >= state_->sites.size()) {
+      throw Error(ErrorCode::invalid_argument, "there is no site %u", site);
+    }
+  }
   if (!state_->refinement) {
     state_->refinement.emplace(*state_);
   }
-  state_->first_of_patch.clear();
-  state_->patch_members.clear();
   state_->refinement->raise(sites, max_sites);
-  state_->refinement->insert(wanted, max_sites);
-  return remake_surface(*state_, state_->refinement->take_changes());
 }
 
 Ties Surface::align_ties(std::span<const double> value_of, double tolerance) {

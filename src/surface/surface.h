@@ -133,6 +133,10 @@ class Surface {
   std::pmr::vector<SampleOrigin> refine(std::span<const std::uint32_t> sites, std::uint32_t max_sites = 0,
                                         std::span<const WantedSite> wanted = {});
 
+  /// The first part of refine(): what it does to sites shows at once, in sites() and level_of(); all else is as it was
+  /// until the next refine(), which may be asked for no more sites. For those who know what to raise without light.
+  void raise(std::span<const std::uint32_t> sites, std::uint32_t max_sites = 0);
+
   /// How often the surroundings of a site were refined: at least its own level, at most max_level(). Levels of sites
   /// that are joined by an edge differ by at most one.
   std::uint32_t level_of(std::uint32_t site) const;

@@ -26,6 +26,23 @@ TEST(Jobs, RunEveryTaskOnce) {
   }
 }
 
+TEST(Jobs, RangesTogetherAreEverythingOnce) {
+  const test::TestHost host(2);
+  for (const std::size_t count : {0u, 1u, 7u, 8u, 9u, 1000u}) {
+    std::vector<std::atomic<int>> visits(count);
+    host.jobs.for_ranges(count, 8, [&](std::size_t begin, std::size_t end) {
+      EXPECT_LT(begin, end);
+      EXPECT_LE(end - begin, 8u);
+      for (std::size_t k = begin; k < end; ++k) {
+        ++visits[k];
+      }
+    });
+    for (const auto& times : visits) {
+      EXPECT_EQ(times, 1);
+    }
+  }
+}
+
 TEST(Jobs, ThrowWhatTheLowestIndexThrew) {
   for (const std::uint32_t threads : {1u, 2u, 3u}) {
     const test::TestHost host(threads);

@@ -77,8 +77,7 @@ class Links : public testing::Test {
         now[origins[i].samples[0]] = i;
       }
     }
-    const ShareChanges changes =
-        follow_shares(shares, sites_before, now, made.surface, made.host);
+    const ShareChanges changes = follow_shares(shares, sites_before, now, made.surface, made.host);
     gather.follow(made.surface, changes);
   }
 

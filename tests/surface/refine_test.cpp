@@ -337,6 +337,33 @@ TEST(Refine, KeepsToTheSmallestSpacingAndTheMostSites) {
   EXPECT_THROW(made.surface.refine(std::vector<std::uint32_t>{1u << 30}), Error);
 }
 
+// One triangulation after several raisings is what there is after one for each; until then samples are as they were.
+TEST(Refine, RaisingWithoutTrianglesComesToTheSame) {
+  for (const Make make : k_scenes) {
+    MadeSurface one(make(), options(0.9, 3)), each(make(), options(0.9, 3));
+    const std::size_t samples = one.surface.samples().size();
+    std::mt19937 random(5), same(5);
+    for (int round = 0; round < 5; ++round) {
+      one.surface.raise(some_sites(one.surface, 4, random));
+      each.surface.refine(some_sites(each.surface, 4, same));
+      EXPECT_EQ(one.surface.samples().size(), samples);
+    }
+    const auto origins = one.surface.refine({});
+    EXPECT_EQ(origins.size(), one.surface.samples().size());
+    ASSERT_GT(origins.size(), samples);
+    expect_true(one);
+    ASSERT_EQ(one.surface.sites().size(), each.surface.sites().size());
+    for (std::uint32_t site = 0; site < one.surface.sites().size(); ++site) {
+      EXPECT_EQ(one.surface.sites()[site].position, each.surface.sites()[site].position);
+      EXPECT_EQ(one.surface.level_of(site), each.surface.level_of(site));
+    }
+    for (std::uint32_t facet = 0; facet < one.facets.facets.size(); ++facet) {
+      EXPECT_TRUE(std::ranges::equal(one.surface.triangles(facet), each.surface.triangles(facet)));
+    }
+    EXPECT_THROW(one.surface.raise(std::vector<std::uint32_t>{1u << 30}), Error);
+  }
+}
+
 TEST(Refine, SmallTrianglesGetSitesOfTheirOwn) {
   MadeSurface made(smooth_cylinder(), options(40, 8));
   const std::size_t before = made.surface.sites().size();
