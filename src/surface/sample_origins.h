@@ -17,8 +17,8 @@ struct SurfaceBefore {
 
   bool is_changed(std::uint32_t facet) const { return changed[facet] != 0; }
 
-  std::pmr::vector<Share> shares;
-  std::pmr::vector<Sample> samples;
+  RawVector<Share> shares;
+  RawVector<Sample> samples;
   ShareDetails details;
   std::pmr::vector<FacetRecord> records;  ///< their meshes are still there
   std::pmr::vector<ShareTriangle> small_triangles;

@@ -98,13 +98,14 @@ class SampleMaker {
       total += std::exchange(first, total);
     }
     parts_.samples.resize(total);
-    std::pmr::vector<std::uint32_t> last(total, parts_.memory);  // per sample: its latest share
+    RawVector<std::uint32_t> last(total, parts_.memory);  // per sample: its latest share
     jobs.for_ranges(count, k_range, [&](std::size_t begin, std::size_t end) {
       std::uint32_t next = first_of_range[begin / k_range];
       for (auto index = static_cast<std::uint32_t>(begin); index < end; ++index) {
         if (sets_.is_first(index)) {
-          parts_.samples[next].site = parts_.details.site[index];
-          parts_.samples[next].first_share = last[next] = index;
+          Sample& sample = parts_.samples[next] = Sample{};
+          sample.site = parts_.details.site[index];
+          sample.first_share = last[next] = index;
           parts_.shares[index].sample = next++;
         }
       }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/raw_vector.h"
 #include "surface/border_sites.h"
 #include "surface/facet_draft.h"
 #include "surface/facet_location.h"
@@ -41,9 +42,9 @@ struct ShareDetails {
     receiver.resize(count);
   }
 
-  std::pmr::vector<std::uint32_t> site;
-  std::pmr::vector<Vec3> normal;    ///< unit, on the share's side
-  std::pmr::vector<Vec3> receiver;  ///< inside the share's cell
+  RawVector<std::uint32_t> site;
+  RawVector<Vec3> normal;    ///< unit, on the share's side
+  RawVector<Vec3> receiver;  ///< inside the share's cell
 };
 
 struct SurfaceParts {
@@ -110,8 +111,8 @@ struct SurfaceParts {
   std::pmr::vector<std::uint32_t> first_given;  // per facet and one past the last; empty: none are given
   std::pmr::vector<SitePlace> places;           // per site
   std::pmr::vector<std::uint8_t> levels;        // per site: what it was raised to
-  std::pmr::vector<Sample> samples;
-  std::pmr::vector<Share> shares;
+  RawVector<Sample> samples;
+  RawVector<Share> shares;
   ShareDetails details;
   std::pmr::vector<FacetRecord> records;
   std::pmr::deque<std::optional<FacetMesh>> meshes;  // empty ones are free
