@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
+#include "base/raw_vector.h"
 #include "radiosity/method.h"
 #include "radiosity/strata.h"
 
@@ -16,7 +16,7 @@ constexpr int k_rings = 2;            // of neighbours that are asked what noise
 constexpr double k_explained = 3.5;   // standard errors
 constexpr double k_bend = 10;         // of the value, where a neighbour is as far away as what is seen
 constexpr double k_alike_bend = 0.1;  // to this bend neighbours see the same, and know what noise there is
-constexpr std::uint32_t k_block = 512;
+constexpr std::size_t k_block = 512;
 
 // Sums for the plane value + a x + b y through points about (0, 0), weighted.
 struct Fit {
@@ -58,21 +58,25 @@ class Smoother {
         certain_(certain),
         values_(values),
         neighbours_(neighbours),
-        original_(values.begin(), values.end(), &host.memory),
-        before_(&host.memory),
+        original_(values.size(), &host.memory),
+        before_(values.size(), &host.memory),
         edges_(neighbours.size(), &host.memory),
         pooled_(values.size(), &host.memory),
-        noise_(&host.memory),
-        noise_before_(&host.memory),
-        host_(host) {}
+        noise_(values.size(), &host.memory),
+        noise_before_(values.size(), &host.memory),
+        host_(host) {
+    for_each_sample([&](std::uint32_t i) { original_[i] = values_[i]; });
+  }
 
   void run() {
     measure_edges();
     pool_noise();
-    noise_ = pooled_;
+    for_each_sample([&](std::uint32_t i) { noise_[i] = pooled_[i]; });
     for (int pass = 0; pass < k_passes; ++pass) {
-      before_.assign(values_.begin(), values_.end());
-      noise_before_ = noise_;
+      for_each_sample([&](std::uint32_t i) {
+        before_[i] = values_[i];
+        noise_before_[i] = noise_[i];
+      });
       for_each_sample([&](std::uint32_t i) {
         if (!certain_[i].settled && pooled_[i] > 0) {
           move(i);
@@ -89,9 +93,8 @@ class Smoother {
 
   template <class OnSample>
   void for_each_sample(OnSample&& on_sample) {
-    const auto count = static_cast<std::uint32_t>(values_.size());
-    host_.jobs.for_each((count + k_block - 1) / k_block, [&](std::uint32_t block) {
-      for (std::uint32_t i = block * k_block; i < std::min(count, (block + 1) * k_block); ++i) {
+    host_.jobs.for_ranges(values_.size(), k_block, [&](std::size_t begin, std::size_t end) {
+      for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
         on_sample(i);
       }
     });
@@ -123,12 +126,11 @@ class Smoother {
     struct Said {
       double value, variance;
     };
-    std::pmr::vector<Said> said(values_.size(), pooled_.get_allocator()),
-        before(values_.size(), pooled_.get_allocator());
-    for (std::size_t i = 0; i < said.size(); ++i) {
+    RawVector<Said> said(values_.size(), &host_.memory), before(values_.size(), &host_.memory);
+    for_each_sample([&](std::uint32_t i) {
       const double value = sum(values_[i]), error = certain_[i].noise * value;
       said[i] = {value, error * error};
-    }
+    });
     for (int ring = 0; ring < k_rings; ++ring) {
       before.swap(said);
       for_each_sample([&](std::uint32_t i) {
@@ -144,9 +146,9 @@ class Smoother {
         said[i] = {all.value / weights, all.variance / weights};
       });
     }
-    for (std::size_t i = 0; i < said.size(); ++i) {
+    for_each_sample([&](std::uint32_t i) {
       pooled_[i] = said[i].value > 0 ? std::sqrt(said[i].variance) / said[i].value : 0;
-    }
+    });
   }
 
   void move(std::uint32_t i) {
@@ -179,9 +181,9 @@ class Smoother {
   std::span<const Certainty> certain_;
   std::span<Color> values_;
   const SampleNeighbours& neighbours_;
-  std::pmr::vector<Color> original_, before_;
-  std::pmr::vector<Edge> edges_;  // as neighbours_ has them
-  std::pmr::vector<double> pooled_, noise_, noise_before_;
+  RawVector<Color> original_, before_;
+  RawVector<Edge> edges_;  // as neighbours_ has them
+  RawVector<double> pooled_, noise_, noise_before_;
   Host& host_;
 };
 
