@@ -35,7 +35,12 @@ class Draw {
 }  // namespace
 
 Gather::Gather(const Scene& scene, const Facets& facets, std::span<const std::uint32_t> occluders, Host& host)
-    : scene_(scene), facets_(facets), occluders_(occluders), host_(host), records_(&host.memory) {}
+    : scene_(scene),
+      facets_(facets),
+      occluders_(occluders),
+      host_(host),
+      records_(&host.memory),
+      behind_(&host.memory) {}
 
 std::uint32_t Gather::add(std::uint32_t count) {
   const std::uint32_t first = size();
@@ -110,16 +115,30 @@ Outlook Gather::glance(const Receiver& receiver, std::uint32_t ray_count, std::u
   return outlook;
 }
 
-void Gather::follow(const Surface& surface, const ShareChanges& changes) {
-  constexpr std::uint32_t k_block = 64;
-  host_.jobs.for_each((size() + k_block - 1) / k_block, [&](std::uint32_t block) {
-    for (std::uint32_t index = block * k_block; index < std::min(size(), (block + 1) * k_block); ++index) {
-      follow(records_[index], surface, changes);
-    }
-  });
+void Gather::follow(const ShareChanges& changes) {
+  for (Behind& behind : behind_) {
+    behind.moves.follow(changes, host_);
+  }
+  if (const std::uint32_t known = behind_.empty() ? 0 : behind_.back().end; known < size()) {
+    behind_.push_back({size(), ShareMoves(changes, host_)});
+  }
 }
 
-void Gather::follow(Record& record, const Surface& surface, const ShareChanges& changes) const {
+void Gather::catch_up(const Surface& surface) {
+  constexpr std::size_t k_block = 64;
+  std::uint32_t first = 0;
+  for (const Behind& behind : behind_) {
+    host_.jobs.for_ranges(behind.end - first, k_block, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        catch_up(records_[first + k], surface, behind.moves);
+      }
+    });
+    first = behind.end;
+  }
+  behind_.clear();
+}
+
+void Gather::catch_up(Record& record, const Surface& surface, const ShareMoves& moves) const {
   const auto shares = surface.shares();
   const Net net(record.seed);
   const Basis basis(record.normal);
@@ -129,8 +148,9 @@ void Gather::follow(Record& record, const Surface& surface, const ShareChanges& 
     if (link == k_none) {
       continue;
     }
-    link = changes.now[link];
-    if (changes.divided[link] == 0) {
+    const bool divided = moves.is_divided(link);
+    link = moves.now(link);
+    if (!divided) {
       continue;
     }
     const Share& share = shares[link];

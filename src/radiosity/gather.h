@@ -6,7 +6,8 @@
 // average.
 //
 // Where the mesh is refined later, what a link stands for is refined with it: the ray is known by its number, its facet
-// by the link, so where the two meet needs no tracing.
+// by the link, so where the two meet needs no tracing. That is put off until links are asked: refinements that follow
+// one another come to one change a share, which is far less than one a link.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +39,7 @@ class Gather {
   /// arguments.
   Gather(const Scene& scene, const Facets& facets, std::span<const std::uint32_t> occluders, Host& host);
 
-  /// A record for each of a number of receivers to come; the first one's number.
+  /// A record for each of a number of receivers to come, before the surface is refined again; the first one's number.
   std::uint32_t add(std::uint32_t count);
   std::uint32_t size() const { return static_cast<std::uint32_t>(records_.size()); }
 
@@ -52,8 +53,10 @@ class Gather {
 
   const Outlook& outlook(std::uint32_t record) const { return records_[record].outlook; }
 
-  /// After the surface was refined: links to shares that were divided are drawn anew.
-  void follow(const Surface& surface, const ShareChanges& changes);
+  /// After the surface was refined. The links that there are must not be asked until they are caught up with it.
+  void follow(const ShareChanges& changes);
+  /// Links to shares that were divided are drawn anew. Before ties are aligned.
+  void catch_up(const Surface& surface);
 
   /// Irradiance from all that the record's links shoot. radiosity: one a share, W m^-2.
   Color gather(std::uint32_t record, std::span<const glm::vec3> radiosity) const;
@@ -65,7 +68,7 @@ class Gather {
  private:
   struct Record;
 
-  void follow(Record& record, const Surface& surface, const ShareChanges& changes) const;
+  void catch_up(Record& record, const Surface& surface, const ShareMoves& moves) const;
   template <class OnLink>
   Outlook look(const Receiver& receiver, std::uint32_t ray_count, std::uint64_t seed, const Surface& surface,
                Tracer& tracer, OnLink&& on_link) const;
@@ -84,6 +87,11 @@ class Gather {
   Host& host_;
   NetOrder order_;
   std::pmr::vector<Record> records_;
+  struct Behind {
+    std::uint32_t end;  // of records; they begin where those before end
+    ShareMoves moves;
+  };
+  std::pmr::vector<Behind> behind_;  // records of before the latest refinement, by how many they have seen
 };
 
 }  // namespace radvor

@@ -6,6 +6,8 @@ namespace radvor {
 
 namespace {
 
+constexpr std::size_t k_range = 4096;  // shares of a task
+
 bool alike(const Share& a, const Share& b) {
   return a.facet == b.facet && a.back == b.back;
 }
@@ -82,7 +84,7 @@ ShareChanges follow_shares(std::span<const Share> before, std::span<const std::u
   const auto samples = surface.samples();
   ShareChanges changes{std::pmr::vector<std::uint32_t>(before.size(), k_none, &host.memory),
                        std::pmr::vector<std::uint8_t>(shares.size(), 0, &host.memory)};
-  host.jobs.for_ranges(before.size(), 4096, [&](std::size_t begin, std::size_t end) {
+  host.jobs.for_ranges(before.size(), k_range, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
       const std::uint32_t sample = samples_now[before[s].sample];
       std::uint32_t share = sample == k_none ? k_none : samples[sample].first_share;
@@ -103,6 +105,27 @@ ShareChanges follow_shares(std::span<const Share> before, std::span<const std::u
   }
   mark_divided(samples_now, surface, changes.divided, host);
   return changes;
+}
+
+std::uint32_t ShareMoves::move(std::uint32_t share, const ShareChanges& changes) {
+  const std::uint32_t now = changes.now[share];
+  return changes.divided[now] != 0 ? now | k_divided : now;
+}
+
+ShareMoves::ShareMoves(const ShareChanges& changes, Host& host) : moves_(changes.now.size(), &host.memory) {
+  host.jobs.for_ranges(moves_.size(), k_range, [&](std::size_t begin, std::size_t end) {
+    for (auto share = static_cast<std::uint32_t>(begin); share < end; ++share) {
+      moves_[share] = move(share, changes);
+    }
+  });
+}
+
+void ShareMoves::follow(const ShareChanges& changes, Host& host) {
+  host.jobs.for_ranges(moves_.size(), k_range, [&](std::size_t begin, std::size_t end) {
+    for (auto share = static_cast<std::uint32_t>(begin); share < end; ++share) {
+      moves_[share] = move(now(share), changes) | (moves_[share] & k_divided);
+    }
+  });
 }
 
 }  // namespace radvor

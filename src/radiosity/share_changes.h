@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "base/host.h"
+#include "base/raw_vector.h"
 #include "surface/surface.h"
 
 namespace radvor {
@@ -13,6 +15,23 @@ namespace radvor {
 struct ShareChanges {
   std::pmr::vector<std::uint32_t> now;     ///< of each old share: its number, or that of the one in its place
   std::pmr::vector<std::uint8_t> divided;  ///< of each new one: it is a corner of a triangle that was not there
+};
+
+/// The same over any number of refinements: what became of the shares that there were before the first of them.
+class ShareMoves {
+ public:
+  ShareMoves(const ShareChanges& changes, Host& host);
+  /// One more refinement.
+  void follow(const ShareChanges& changes, Host& host);
+
+  std::uint32_t now(std::uint32_t share) const { return moves_[share] & ~k_divided; }
+  bool is_divided(std::uint32_t share) const { return (moves_[share] & k_divided) != 0; }
+
+ private:
+  static constexpr std::uint32_t k_divided = std::uint32_t{1} << 31;
+  static std::uint32_t move(std::uint32_t share, const ShareChanges& changes);
+
+  RawVector<std::uint32_t> moves_;  // per old share: its number now, and whether it was divided on the way
 };
 
 /// before: the old shares; sites_before: the site of each old sample; samples_now: the number of each old sample,

@@ -146,9 +146,8 @@ class Smoother {
         said[i] = {all.value / weights, all.variance / weights};
       });
     }
-    for_each_sample([&](std::uint32_t i) {
-      pooled_[i] = said[i].value > 0 ? std::sqrt(said[i].variance) / said[i].value : 0;
-    });
+    for_each_sample(
+        [&](std::uint32_t i) { pooled_[i] = said[i].value > 0 ? std::sqrt(said[i].variance) / said[i].value : 0; });
   }
 
   void move(std::uint32_t i) {

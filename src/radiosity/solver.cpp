@@ -34,6 +34,7 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
       known_(&host.memory),
       outlooks_(&host.memory),
       first_bounce_(&host.memory),
+      spreads_(&host.memory),
       pending_(&host.memory),
       interpolated_(&host.memory),
       unshot_(&host.memory),

@@ -110,6 +110,7 @@ class Solver {
   void add_series(double ratio_of_all);
   void bounce();
   double noise_of(std::uint32_t record, double spread) const;
+  void measure_spreads();
   double noise_of_sky(std::uint32_t sample) const;
   void free_of_noise(std::pmr::vector<Color>& reflected, std::pmr::vector<Color>& sky, double bend) const;
   void settle_surroundings();
@@ -159,6 +160,8 @@ class Solver {
   std::pmr::vector<std::uint8_t> known_;          // of each sample: whether its outlook is
   std::pmr::vector<Outlook> outlooks_;            // of each sample
   std::pmr::vector<Color> first_bounce_;          // irradiance of each sample, for the mesh to follow
+  std::size_t seen_by_all_ = 0;                   // samples that there were when all links were asked for it
+  std::pmr::vector<float> spreads_;               // of each record: how its rays differ in what they bring
   std::pmr::vector<std::uint32_t> pending_;       // samples whose light is under way
   std::pmr::vector<std::uint32_t> interpolated_;  // samples without a record, anchors first
   std::pmr::vector<Color> unshot_;                // irradiance that each share has not reflected yet

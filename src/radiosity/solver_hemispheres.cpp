@@ -17,8 +17,9 @@ namespace {
 constexpr double k_least_weight = 1e-6;          // of an anchor that matters
 constexpr std::uint32_t k_rays_of_glimpse = 16;  // one packet
 constexpr std::uint64_t k_seed_of_glimpse = 0x676c696d70736573;
-constexpr float k_wide_open = 0.5f;  // share of the view that is sky, from which on its edges matter less
-constexpr double k_same_way = 0.95;  // cosine between normals of which one may take the other's light
+constexpr float k_wide_open = 0.5f;   // share of the view that is sky, from which on its edges matter less
+constexpr double k_much_finer = 0.3;  // more samples than when all links were last asked what they see of the mesh
+constexpr double k_same_way = 0.95;   // cosine between normals of which one may take the other's light
 
 }  // namespace
 
@@ -198,16 +199,26 @@ void Solver::reflect_direct() {
   }
 }
 
-// What samples get by one reflection of direct light; those that have looked around before, now of the mesh as it is.
+// What samples get by one reflection of direct light. Those that have looked around before see the mesh as it is now,
+// once it is much finer than when they last did: every one of their links is read again for it.
 void Solver::see_first_bounce() {
   reflect_direct();
-  constexpr std::uint32_t k_block = 256;
   const auto count = static_cast<std::uint32_t>(records_.size());
-  host.jobs.for_each((count + k_block - 1) / k_block, [&](std::uint32_t block) {
-    for (std::uint32_t sample = block * k_block; sample < std::min(count, (block + 1) * k_block); ++sample) {
-      if (records_[sample] != k_none) {
-        first_bounce_[sample] = hemispheres_->gather(records_[sample], radiosity_);
-      }
+  const bool all = count > (1 + k_much_finer) * static_cast<double>(seen_by_all_);
+  if (all) {
+    hemispheres_->catch_up(*surface);
+    seen_by_all_ = count;
+  }
+  spreads_.resize(hemispheres_->size());
+  const auto see = [&](std::uint32_t sample) {
+    if (const std::uint32_t record = records_[sample]; record != k_none) {
+      first_bounce_[sample] = hemispheres_->gather(record, radiosity_);
+      spreads_[record] = static_cast<float>(hemispheres_->spread(record, radiosity_));
+    }
+  };
+  host.jobs.for_ranges(all ? count : pending_.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      see(all ? static_cast<std::uint32_t>(k) : pending_[k]);
     }
   });
   interpolate(interpolated_, first_bounce_);

@@ -124,7 +124,7 @@ void Solver::follow(std::span<const Share> before, std::span<const std::uint32_t
 
   place_receivers();
   if (hemispheres_->size() > 0) {
-    hemispheres_->follow(*surface, follow_shares(before, before_sites, now, *surface, host));
+    hemispheres_->follow(follow_shares(before, before_sites, now, *surface, host));
   }
   blocks_.emplace(*surface, receivers_, pending_, host);
 }

@@ -79,8 +79,18 @@ std::pmr::vector<Color> Solver::sky_light() const {
   return light;
 }
 
-// What hemispheres say of sky and surfaces; what was interpolated follows its anchors. reflected: what radiosity_ sends
-// to each sample; sky: of each sample, or empty; bend: see Certainty::most_bend.
+// Of what radiosity_ sends, by all rays.
+void Solver::measure_spreads() {
+  spreads_.resize(hemispheres_->size());
+  host.jobs.for_ranges(spreads_.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (auto record = static_cast<std::uint32_t>(begin); record < end; ++record) {
+      spreads_[record] = static_cast<float>(hemispheres_->spread(record, radiosity_));
+    }
+  });
+}
+
+// What hemispheres say of sky and surfaces; what was interpolated follows its anchors. reflected: what comes to each
+// sample by the links, whose spreads are measured; sky: of each sample, or empty; bend: see Certainty::most_bend.
 void Solver::free_of_noise(std::pmr::vector<Color>& reflected, std::pmr::vector<Color>& sky, double bend) const {
   const auto count = static_cast<std::uint32_t>(reflected.size());
   std::pmr::vector<Certainty> certain(count, Certainty{}, &host.memory);
@@ -92,7 +102,7 @@ void Solver::free_of_noise(std::pmr::vector<Color>& reflected, std::pmr::vector<
       if (surface->level_of(surface->samples()[i].site) < surface->max_level()) {
         certain[i].most_bend = bend;
       }
-      certain[i].noise = certain[i].settled ? 0 : noise_of(records_[i], hemispheres_->spread(records_[i], radiosity_));
+      certain[i].noise = certain[i].settled ? 0 : noise_of(records_[i], spreads_[records_[i]]);
     }
   });
   const auto follow_noise = [&] {
@@ -139,6 +149,7 @@ void Solver::settle_noise() {
     const Color sent = shares[s].albedo * (direct[shares[s].sample] + indirect[shares[s].sample]);
     radiosity_[s] = glm::vec3(shot_alone_.empty() ? sent : glm::max(sent - shot_alone_[s], Color(0.0)));
   }
+  measure_spreads();
   const std::uint32_t most_sites = options.spacing.max_sites;
   const bool follows = options.spacing.refines && (most_sites == 0 || surface->sites().size() < most_sites);
   const double left_bent = k_left_bent * options.tolerance * 3 * (mean_of(direct) + mean_of(indirect));

@@ -42,7 +42,6 @@ class Links : public testing::Test {
     for (const Vec3& at : {Vec3(0.31, 0.37, 0), Vec3(1.83, 1.71, 0), Vec3(0.95, 1.05, 0), Vec3(0.45, 0.45, 0)}) {
       receivers.push_back({at, at + Vec3(0, 0, visibility->lift()), Vec3(0, 0, 1)});
     }
-    gather.add(static_cast<std::uint32_t>(2 * receivers.size()));
   }
 
   static SurfaceOptions options() {
@@ -53,6 +52,7 @@ class Links : public testing::Test {
   }
 
   void trace(std::uint32_t first_record) {
+    ASSERT_EQ(gather.add(static_cast<std::uint32_t>(receivers.size())), first_record);
     Tracer tracer(*visibility);
     for (std::uint32_t r = 0; r < receivers.size(); ++r) {
       gather.trace(first_record + r, receivers[r], k_rays, k_seed + r, made.surface, tracer);
@@ -78,11 +78,12 @@ class Links : public testing::Test {
       }
     }
     const ShareChanges changes = follow_shares(shares, sites_before, now, made.surface, made.host);
-    gather.follow(made.surface, changes);
+    gather.follow(changes);
   }
 
   // What a record gathers of shares that shoot: green and blue numbers of no pattern, red nothing from the first sites.
-  Color gathered(std::uint32_t record, std::size_t first_sites) const {
+  Color gathered(std::uint32_t record, std::size_t first_sites) {
+    gather.catch_up(made.surface);
     std::vector<glm::vec3> radiosity;
     for (std::uint32_t s = 0; s < made.surface.shares().size(); ++s) {
       const bool is_new = made.surface.samples()[made.surface.shares()[s].sample].site >= first_sites;
@@ -133,6 +134,7 @@ TEST_F(Links, StayWhereNothingIsDivided) {
     before.push_back(gathered_by_place(r));
   }
   refine({1, 0.5, 0}, 0.25);
+  gather.catch_up(made.surface);
   ASSERT_GT(made.surface.shares().size(), shares_before);
   for (std::uint32_t r = 0; r < receivers.size(); ++r) {
     EXPECT_EQ(gathered_by_place(r), before[r]) << "receiver " << r;
