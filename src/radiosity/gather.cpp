@@ -44,7 +44,9 @@ Gather::Gather(const Scene& scene, const Facets& facets, std::span<const std::ui
 
 std::uint32_t Gather::add(std::uint32_t count) {
   const std::uint32_t first = size();
-  records_.reserve(records_.size() + count);
+  if (records_.capacity() < records_.size() + count) {
+    records_.reserve(std::max(records_.size() + count, 2 * records_.capacity()));
+  }
   for (std::uint32_t i = 0; i < count; ++i) {
     records_.emplace_back(&host_.memory);
   }
