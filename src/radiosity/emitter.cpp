@@ -54,16 +54,22 @@ Sight look(const Emitter& emitter, const Receiver& receiver, Tracer& tracer, std
     for (const auto& child : quarter(parts[p].corners)) {
       const Vec3 point = centre(child);
       const double weight = kernel(receiver.point, receiver.normal, point, emitter.normal);
-      if (weight > 0) {  // points under the horizon are not blocked: they are not there
-        targets[count] = point + emitter.normal * tracer.lift();
-        weights[count] = weight;
-        owner[count++] = p;
+      if (weight <= 0 && tracer.skips.facing) {
+        ++tracer.counters.skipped_facing;
+        continue;
       }
+      targets[count] = point + emitter.normal * tracer.lift();
+      weights[count] = weight;
+      owner[count++] = p;
     }
   }
   tracer.blocked_from(receiver.lifted, std::span(targets.data(), count), blocked.data());
   Sight sight;
   for (std::size_t k = 0; k < count; ++k) {
+    if (weights[k] <= 0) {  // points under the horizon are not blocked: they are not there
+      ++tracer.counters.idle_rays;
+      continue;
+    }
     Verdict& verdict = verdicts[owner[k]];
     verdict.kernel_all += weights[k];
     verdict.kernel_seen += blocked[k] ? 0 : weights[k];
@@ -91,7 +97,13 @@ Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tr
   const double whole = polygon_form_factor(receiver.point, receiver.normal, emitter.corners, emitter.normal);
   ++tracer.counters.form_factors;
   if (whole <= 0) {
-    ++tracer.counters.skipped_facing;
+    if (tracer.skips.facing) {
+      ++tracer.counters.skipped_facing;
+    } else {
+      const Part turned_away{emitter.corners, 0, 0};
+      std::array<Verdict, 4> verdicts;
+      look(emitter, receiver, tracer, std::span(&turned_away, 1), verdicts);
+    }
     return Color(0.0);
   }
   // A form factor that is worth the tolerance.
@@ -126,10 +138,11 @@ Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tr
         visible += parts[p].form_factor;
       } else if (of_all.hidden && !of_all.open) {
         continue;
-      } else if (parts[p].form_factor > may_stay && parts[p].depth < k_max_depth) {
+      } else if (parts[p].depth < k_max_depth && (parts[p].form_factor > may_stay || !tracer.skips.negligible)) {
         stack[size++] = parts[p];
-      } else if (verdict.kernel_all > 0) {
-        visible += parts[p].form_factor * verdict.kernel_seen / verdict.kernel_all;
+      } else {
+        tracer.counters.skipped_negligible += parts[p].depth < k_max_depth ? 1 : 0;
+        visible += verdict.kernel_all > 0 ? parts[p].form_factor * verdict.kernel_seen / verdict.kernel_all : 0;
       }
     }
   };
@@ -140,9 +153,10 @@ Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tr
   for (std::size_t i = 2; i < corner_count; ++i) {
     const std::array<Vec3, 3> triangle = {corners[0], corners[i - 1], corners[i]};
     const Part root{triangle, polygon_form_factor(receiver.point, receiver.normal, triangle, emitter.normal), 0};
-    if (root.form_factor > tolerable) {
+    if (root.form_factor > tolerable || (root.form_factor > 0 && !tracer.skips.negligible)) {
       stack[size++] = root;  // what matters gets 16 rays at least, in 4 parts
     } else if (root.form_factor > 0) {
+      ++tracer.counters.skipped_negligible;
       settle(std::span(&root, 1));
     }
   }

@@ -78,12 +78,9 @@ void LinkMaker::open(Pending pending, const Receiver& receiver, Tracer& tracer) 
   const Vec3& n = receiver.normal;
   const Vec3 w = node.piece.centroid - x;
   const double above = glm::dot(n, w);
-  if (above <= -node.radius) {
-    ++tracer.counters.skipped_facing;
-    return;
-  }
   // A plane that the receiver lies in, or is nearer to than positions can tell, gives it nothing.
-  if (node.flat && -glm::dot(node.piece.normal, w) <= tracer.lift()) {
+  const bool faces = above > -node.radius && !(node.flat && -glm::dot(node.piece.normal, w) <= tracer.lift());
+  if (!faces && tracer.skips.facing) {
     ++tracer.counters.skipped_facing;
     return;
   }
@@ -93,7 +90,7 @@ void LinkMaker::open(Pending pending, const Receiver& receiver, Tracer& tracer) 
   double form_factor;
   if (!leaf) {
     if (!whole || distance < accuracy_.separation * node.radius) {
-      open_children(node, clear || is_clear(node, receiver, tracer));
+      open_children(node, clear || (faces && is_clear(node, receiver, tracer)));
       return;
     }
     ++tracer.counters.form_factors;
@@ -111,7 +108,7 @@ void LinkMaker::open(Pending pending, const Receiver& receiver, Tracer& tracer) 
             ? kernel_form_factor(x, n, node.piece)
             : polygon_form_factor(x, n, tree_.polygon(tree_.elements()[node.first_element]), node.piece.normal);
   }
-  if (form_factor <= 0) {
+  if (form_factor <= 0 || !faces) {
     return;
   }
   if (clear) {
@@ -150,10 +147,12 @@ void LinkMaker::propose(std::uint32_t index, double form_factor, std::uint32_t r
   const auto first = static_cast<std::uint32_t>(targets_.size());
   const auto add = [&](const Vec3& point, const Vec3& normal) {
     const double weight = kernel(receiver.point, receiver.normal, point, normal);
-    if (weight > 0) {  // points under a horizon are not blocked: they are not there
-      targets_.push_back(point + normal * tracer.lift());
-      weights_.push_back(weight);
+    if (weight <= 0 && tracer.skips.facing) {
+      ++tracer.counters.skipped_facing;
+      return;
     }
+    targets_.push_back(point + normal * tracer.lift());
+    weights_.push_back(weight);
   };
   if (node.element_count == 1) {
     const auto polygon = tree_.polygon(tree_.elements()[node.first_element]);
@@ -178,17 +177,25 @@ void LinkMaker::settle(const Receiver& receiver, Tracer& tracer) {
   tracer.blocked_from(receiver.lifted, targets_, blocked_.data());
   for (const Candidate& candidate : candidates_) {
     double all = 0, seen = 0;
-    std::uint32_t hidden = 0;
+    bool some_open = false, some_hidden = false;
     for (std::uint32_t ray = candidate.first_ray; ray < candidate.first_ray + candidate.ray_count; ++ray) {
+      if (weights_[ray] <= 0) {  // points under a horizon are not blocked: they are not there
+        ++tracer.counters.idle_rays;
+        continue;
+      }
       all += weights_[ray];
       seen += blocked_[ray] ? 0 : weights_[ray];
-      hidden += blocked_[ray];
+      some_open = some_open || blocked_[ray] == 0;
+      some_hidden = some_hidden || blocked_[ray] != 0;
     }
     const TreeNode& node = tree_.nodes()[candidate.node];
-    const bool mixed = candidate.ray_count == 0 || (hidden != 0 && hidden != candidate.ray_count);
-    if (mixed && node.child_count > 0 && candidate.form_factor > accuracy_.splittable) {
-      open_children(node, false);
-      continue;
+    const bool mixed = some_open == some_hidden;  // or no point was above the horizon
+    if (mixed && node.child_count > 0) {
+      if (candidate.form_factor > accuracy_.splittable || !tracer.skips.negligible) {
+        open_children(node, false);
+        continue;
+      }
+      ++tracer.counters.skipped_negligible;
     }
     const double visible = all > 0 ? candidate.form_factor * seen / all : 0;
     link(candidate.node, visible, receiver);

@@ -19,13 +19,14 @@ double visible_cosine_of_disk(const Receiver& receiver, const Vec3& axis, double
   const auto sample = [&](int points, int rim, bool& mixed) {
     std::array<Vec3, 256> targets;
     std::array<double, 256> weights;
-    std::array<std::uint8_t, 256> blocked;
+    std::array<std::uint8_t, 256> blocked, above;
     std::size_t count = 0;
     const auto add = [&](const Vec2& p, double share) {
       const Vec3 direction = basis.on_hemisphere(sin_radius * p);
       const double cosine = glm::dot(receiver.normal, direction);
-      if (cosine <= 0) {
-        return;  // under the horizon: not blocked, not there
+      if (cosine <= 0 && tracer.skips.facing) {
+        ++tracer.counters.skipped_facing;
+        return;
       }
       const double along = glm::dot(direction, axis);
       // To the near side of the luminous sphere; for a sun, out of the scene.
@@ -33,7 +34,8 @@ double visible_cosine_of_disk(const Receiver& receiver, const Vec3& axis, double
           distance * along -
           std::sqrt(std::max(0.0, source_radius * source_radius - distance * distance * (1 - along * along)));
       targets[count] = receiver.lifted + direction * reach;
-      weights[count++] = share * cosine / along;
+      above[count] = cosine > 0;  // under the horizon: not blocked, not there
+      weights[count++] = cosine > 0 ? share * cosine / along : 0;
     };
     for (int i = 0; i < points; ++i) {
       add(sunflower(i, points), 1.0 / points);
@@ -44,14 +46,19 @@ double visible_cosine_of_disk(const Receiver& receiver, const Vec3& axis, double
     }
     tracer.blocked_from(receiver.lifted, std::span(targets.data(), count), blocked.data());
     double all = 0, seen = 0;
-    std::size_t hidden = 0;
+    bool open = false, hidden = false;
     for (std::size_t k = 0; k < count; ++k) {
-      hidden += blocked[k];
+      if (above[k] == 0) {
+        ++tracer.counters.idle_rays;
+        continue;
+      }
+      open = open || blocked[k] == 0;
+      hidden = hidden || blocked[k] != 0;
       all += weights[k];
       seen += blocked[k] ? 0 : weights[k];
     }
-    mixed = hidden != 0 && hidden != count;
-    sight.add({hidden != count, hidden != 0});
+    mixed = open && hidden;
+    sight.add({open, hidden});
     // Wholly above the horizon the disk's mean is that of its centre, exactly: the points only say what is seen of it.
     const double cosine = glm::dot(receiver.normal, axis);
     return cosine >= sin_radius && all > 0 ? cosine * seen / all : seen;
@@ -64,20 +71,24 @@ double visible_cosine_of_disk(const Receiver& receiver, const Vec3& axis, double
 double visible_cosine(const Receiver& receiver, const Vec3& axis, double sin_radius, double distance,
                       double source_radius, Tracer& tracer, Sight& sight) {
   const double cosine = glm::dot(receiver.normal, axis);
-  if (cosine <= -sin_radius) {
+  if (cosine <= -sin_radius && tracer.skips.facing) {
     ++tracer.counters.skipped_facing;
     return 0;
   }
   if (sin_radius > 0) {
     return visible_cosine_of_disk(receiver, axis, sin_radius, distance, source_radius, tracer, sight);
   }
-  if (cosine <= 0) {
+  if (cosine <= 0 && tracer.skips.facing) {
     ++tracer.counters.skipped_facing;
     return 0;
   }
   const Vec3 target = receiver.lifted + axis * distance;
   std::uint8_t blocked = 0;
   tracer.blocked_from(receiver.lifted, std::span(&target, 1), &blocked);
+  if (cosine <= 0) {
+    ++tracer.counters.idle_rays;
+    return 0;
+  }
   sight = {blocked == 0, blocked != 0};
   return blocked ? 0 : cosine;
 }
@@ -105,11 +116,18 @@ Color irradiance_of_punctual_light(const Light& light, const Receiver& receiver,
   }
   const Vec3 axis = apart / distance;
   const double falloff = light.type == LightType::spot ? spot_falloff(light, -axis) : 1;
-  if (falloff == 0) {
-    ++tracer.counters.skipped_negligible;
+  const double sin_radius = light.radius / distance;
+  if (falloff == 0) {  // outside of the cone nothing is hidden either
+    if (tracer.skips.negligible) {
+      ++tracer.counters.skipped_negligible;
+    } else {
+      Sight of_nothing;
+      const TransportCounters before = tracer.counters;
+      visible_cosine(receiver, axis, sin_radius, distance, light.radius, tracer, of_nothing);
+      tracer.counters.idle_rays = before.idle_rays + tracer.counters.rays - before.rays;
+    }
     return Color(0.0);
   }
-  const double sin_radius = light.radius / distance;
   return light.color * (falloff / (distance * distance) *
                         visible_cosine(receiver, axis, sin_radius, distance, light.radius, tracer, sight));
 }

@@ -25,6 +25,7 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
       indirect(&host.memory),
       fit(&host.memory),
       occluders_(&host.memory),
+      skips_{(options.disable & Disable::facing) == 0, (options.disable & Disable::negligible) == 0},
       visibility_(nullptr, Unmake{maker, host}),
       receivers_(&host.memory),
       sights_(&host.memory),
@@ -143,6 +144,7 @@ void Solver::step() {
 
 void Solver::count(const TransportCounters& counters) {
   stats_.rays += counters.rays;
+  idle_rays_ += counters.idle_rays;
   stats_.form_factors += counters.form_factors;
   stats_.skipped_facing += counters.skipped_facing;
   stats_.skipped_negligible += counters.skipped_negligible;

@@ -140,6 +140,7 @@ class Solver {
   void report_convergence();
 
   std::pmr::vector<std::uint32_t> occluders_;  // welded triangle of each triangle that blocks
+  const Skips skips_;
   std::optional<OccluderTree> occluder_tree_;  // absent where it is turned off
   struct Unmake {
     VisibilityMaker maker;
@@ -190,7 +191,7 @@ class Solver {
   std::uint32_t block_ = 0;   // next block of what is under way
   std::uint32_t bounces_ = 0;
   double previous_unshot_ = 0, first_unshot_ = 0;
-  std::uint64_t rays_before_standouts_ = 0;
+  std::uint64_t idle_rays_ = 0, rays_before_standouts_ = 0;  // the latter without the former
   BakeStats stats_;
 };
 
@@ -207,7 +208,7 @@ template <class Work>
 void Solver::over(std::uint32_t begin, std::uint32_t end, Work&& work) {
   std::pmr::vector<TransportCounters> counters(end - begin, &host.memory);
   host.jobs.for_each(end - begin, [&](std::uint32_t index) {
-    Tracer tracer(*visibility_);
+    Tracer tracer(*visibility_, skips_);
     work(begin + index, tracer);
     counters[index] = tracer.counters;
   });

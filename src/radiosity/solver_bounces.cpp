@@ -51,7 +51,7 @@ void Solver::account() {
     return;
   }
   stood_out_.assign(surface->patch_count(), 0);
-  rays_before_standouts_ = stats_.rays;
+  rays_before_standouts_ = stats_.rays - idle_rays_;
   stage_ = options.max_bounces == 0 ? Stage::standouts : Stage::bounces;
 }
 
@@ -92,7 +92,7 @@ void Solver::shoot_standout() {
       patch = p;
     }
   }
-  const double spent = static_cast<double>(stats_.rays - rays_before_standouts_);
+  const double spent = static_cast<double>(stats_.rays - idle_rays_ - rays_before_standouts_);
   if (patch == k_none || most < k_stands_out * options.tolerance * variance ||
       spent > k_most_spent * static_cast<double>(rays_before_standouts_)) {
     stage_ = Stage::bounces;
@@ -151,7 +151,11 @@ bool Solver::begin_bounce() {
   const double ratio = bounces_ > 0 && previous_unshot_ > 0 ? std::min(0.99, left / previous_unshot_) : 0.5;
   previous_unshot_ = left;
   // So put that light which is not a number ends too.
-  if (!(left / (1 - ratio) > k_share_left_unshot * options.tolerance * received)) {
+  const double least = skips_.negligible ? k_share_left_unshot * options.tolerance : k_lost_to_rounding;
+  if (!(left / (1 - ratio) > least * received)) {
+    if (skips_.negligible && left > 0) {
+      stats_.skipped_negligible += pending_.size();  // of one bounce more
+    }
     if (options.max_bounces == 0 && bounces_ > 1) {
       add_series(ratio);
     }

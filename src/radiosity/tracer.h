@@ -10,9 +10,17 @@
 
 namespace radvor {
 
+/// What is left undone where it cannot matter; off: it is done all the same, and nothing of it counts that would not
+/// have.
+struct Skips {
+  bool facing = true;      ///< what turns its back, or lies under the horizon
+  bool negligible = true;  ///< what is worth too little against the tolerance
+};
+
 /// What was done and what was saved. Sums of integers, so the same for any number of threads; the time is not.
 struct TransportCounters {
   std::uint64_t rays = 0;
+  std::uint64_t idle_rays = 0;  ///< of these: cast though nothing of them counts, since a skip is off
   std::uint64_t form_factors = 0;
   std::uint64_t skipped_facing = 0;
   std::uint64_t skipped_negligible = 0;
@@ -21,6 +29,7 @@ struct TransportCounters {
 
   TransportCounters& operator+=(const TransportCounters& other) {
     rays += other.rays;
+    idle_rays += other.idle_rays;
     form_factors += other.form_factors;
     skipped_facing += other.skipped_facing;
     skipped_negligible += other.skipped_negligible;
@@ -33,7 +42,7 @@ struct TransportCounters {
 /// One per task; not shared between threads.
 class Tracer {
  public:
-  explicit Tracer(const Visibility& visibility) : visibility_(visibility) {}
+  explicit Tracer(const Visibility& visibility, const Skips& on = {}) : skips(on), visibility_(visibility) {}
 
   void blocked_from(const Vec3& from, std::span<const Vec3> to, std::uint8_t* blocked) {
     counters.rays += to.size();
@@ -55,6 +64,7 @@ class Tracer {
 
   double lift() const { return visibility_.lift(); }
 
+  const Skips skips;
   TransportCounters counters;
 
  private:
