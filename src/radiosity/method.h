@@ -1,6 +1,8 @@
 // What the steps of a bake share: constants of the method, and sums.
 #pragma once
 
+#include <limits>
+
 #include "base/vector.h"
 #include "scene/welded.h"
 #include "surface/surface.h"
@@ -33,6 +35,12 @@ inline constexpr double k_lost_to_rounding = 1e-7;
 
 /// The samples that a sample lies between are not known, or are no more.
 inline constexpr SampleOrigin k_unanchored = {{k_none, k_none, k_none}, {0, 0, 0}, false};
+
+/// What a share sends, as hemispheres gather it. Light beyond what a float holds is as much as it holds: infinite, it
+/// would be no number once a black surface reflects it.
+inline glm::vec3 as_sent(const Color& radiosity) {
+  return glm::vec3(glm::min(radiosity, Color(std::numeric_limits<float>::max())));
+}
 
 inline double sum(const Color& color) {
   return color.r + color.g + color.b;

@@ -167,7 +167,7 @@ bool Solver::begin_bounce() {
   const auto shares = surface->shares();
   for (std::uint32_t s = 0; s < shares.size(); ++s) {
     const Color sent = shares[s].albedo * unshot_[s];
-    radiosity_[s] = glm::vec3(sent);
+    radiosity_[s] = as_sent(sent);
     lose(s, sent);
   }
   return true;

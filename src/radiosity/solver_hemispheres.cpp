@@ -195,7 +195,7 @@ void Solver::reflect_direct() {
     return;
   }
   for (std::size_t s = 0; s < shares.size(); ++s) {
-    radiosity_[s] = glm::vec3(shares[s].albedo * direct[shares[s].sample]);
+    radiosity_[s] = as_sent(shares[s].albedo * direct[shares[s].sample]);
   }
 }
 

@@ -147,7 +147,7 @@ void Solver::settle_noise() {
   radiosity_.resize(shares.size());
   for (std::size_t s = 0; s < shares.size(); ++s) {
     const Color sent = shares[s].albedo * (direct[shares[s].sample] + indirect[shares[s].sample]);
-    radiosity_[s] = glm::vec3(shot_alone_.empty() ? sent : glm::max(sent - shot_alone_[s], Color(0.0)));
+    radiosity_[s] = as_sent(shot_alone_.empty() ? sent : glm::max(sent - shot_alone_[s], Color(0.0)));
   }
   measure_spreads();
   const std::uint32_t most_sites = options.spacing.max_sites;

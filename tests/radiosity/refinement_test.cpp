@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "radiosity/form_factor.h"
 #include "rooms.h"
@@ -116,17 +117,12 @@ TEST(Refinement, LampJustUnderACeilingIsFoundWithoutAnyShadowEdge) {
   EXPECT_LT(far, fine / 4);
 }
 
-TEST(Refinement, SameBytesForAnyThreadsAndSlices) {
+void expect_same_bytes(const std::function<Scene()>& make, const BakeOptions& options) {
   std::vector<Color> first;
+  std::uint64_t rays = 0;
   for (const std::uint32_t threads : {1u, 2u, 3u}) {
     for (const double slice : {0.0, 0.002}) {
-      SceneBuilder builder;
-      const std::uint32_t grey = builder.material(Color(0.6, 0.5, 0.4));
-      builder.box({0, 0, 0}, {2, 1.5, 1}, true, grey);
-      builder.box({0.5, 0.4, 0.2}, {1.0, 0.9, 0.5}, false, grey);
-      builder.quad({1.2, 0.5, 0.95}, {1.2, 0.9, 0.95}, {1.6, 0.9, 0.95}, {1.6, 0.5, 0.95},
-                   builder.material(Color(0.0), Color(10.0, 8.0, 6.0)));
-      TestBake bake(builder.take(), refining(0.05, 0.3), threads);
+      TestBake bake(make(), options, threads);
       ASSERT_EQ(bake.run(slice), BakeStatus::converged);
       std::vector<Color> light;
       for (std::size_t i = 0; i < (*bake).direct().size(); ++i) {
@@ -135,11 +131,50 @@ TEST(Refinement, SameBytesForAnyThreadsAndSlices) {
       }
       if (first.empty()) {
         first = light;
+        rays = bake->stats().rays;
       }
       EXPECT_GT((*bake).surface().sites().size(), 300u);
       EXPECT_TRUE(light == first) << threads << " " << slice;
+      EXPECT_EQ(bake->stats().rays, rays) << threads << " " << slice;
     }
   }
+}
+
+TEST(Refinement, SameBytesForAnyThreadsAndSlices) {
+  const auto room = [] {
+    SceneBuilder builder;
+    const std::uint32_t grey = builder.material(Color(0.6, 0.5, 0.4));
+    builder.box({0, 0, 0}, {2, 1.5, 1}, true, grey);
+    builder.box({0.5, 0.4, 0.2}, {1.0, 0.9, 0.5}, false, grey);
+    builder.quad({1.2, 0.5, 0.95}, {1.2, 0.9, 0.95}, {1.6, 0.9, 0.95}, {1.6, 0.5, 0.95},
+                 builder.material(Color(0.0), Color(10.0, 8.0, 6.0)));
+    return builder.take();
+  };
+  expect_same_bytes(room, refining(0.05, 0.3));
+}
+
+// What a lamp alone does not do: a glimpse of the sky, rays by how much of it is seen, a sun's shadows.
+TEST(Refinement, SameBytesForAnyThreadsAndSlicesUnderASkyAndSun) {
+  const auto yard = [] {
+    SceneBuilder builder;
+    const std::uint32_t grey = builder.material(Color(0.6, 0.5, 0.4));
+    builder.quad({-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}, grey);
+    builder.box({-0.6, -0.5, 0}, {0.4, 0.5, 1}, false, grey);
+    // A shed, open to one side: it sees little of the sky.
+    const std::uint32_t boards = builder.material(Color(0.4, 0.3, 0.2), Color(0.0), true);
+    builder.quad({0.9, -0.5, 0.8}, {1.7, -0.5, 0.8}, {1.7, 0.5, 0.8}, {0.9, 0.5, 0.8}, boards);
+    builder.quad({0.9, -0.5, 0}, {1.7, -0.5, 0}, {1.7, -0.5, 0.8}, {0.9, -0.5, 0.8}, boards);
+    builder.quad({1.7, -0.5, 0}, {1.7, 0.5, 0}, {1.7, 0.5, 0.8}, {1.7, -0.5, 0.8}, boards);
+    builder.under_sky(Color(0.5, 0.6, 0.8));
+    Light sun;
+    sun.type = LightType::directional;
+    sun.direction = glm::normalize(Vec3(-0.6, 0.3, -0.7));
+    sun.color = Color(3.0, 2.8, 2.5);
+    sun.angle = 0.01;
+    builder.scene.lights.push_back(sun);
+    return builder.take();
+  };
+  expect_same_bytes(yard, refining(0.05, 0.4));
 }
 
 TEST(Refinement, FurnaceStaysOne) {
