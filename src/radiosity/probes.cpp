@@ -83,15 +83,4 @@ std::pmr::vector<Probe> place_probes(const Surface& surface, double least_area, 
   return probes;
 }
 
-std::size_t triangle_sides(const Surface& surface) {
-  const auto shares = surface.shares();
-  std::size_t sides = 0;
-  for (std::uint32_t facet = 0; facet < surface.facets().facets.size(); ++facet) {
-    const auto triangles = surface.triangles(facet);
-    const bool two_sided = !triangles.empty() && shares[triangles[0][0]].other_side != k_none;
-    sides += triangles.size() * (two_sided ? 2 : 1);
-  }
-  return sides;
-}
-
 }  // namespace radvor

@@ -25,7 +25,4 @@ struct Probe {
 std::pmr::vector<Probe> place_probes(const Surface& surface, double least_area, std::span<const std::uint8_t> fresh,
                                      double lift, Host& host);
 
-/// Triangles of the mesh, those of two-sided surfaces twice: the probes that there can be.
-std::size_t triangle_sides(const Surface& surface);
-
 }  // namespace radvor

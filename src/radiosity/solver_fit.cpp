@@ -32,13 +32,10 @@ void Solver::align_ties() {
 }
 
 void Solver::place_fit_probes() {
-  const double area = skips_.negligible ? receiving_area() : 0;
+  const double area = receiving_area();
   const std::pmr::vector<std::uint8_t> all(direct.size(), 1, &host.memory);
   const double least = std::max(k_fitted * options.tolerance * options.tolerance * area, 1e-300);
   probes_ = place_probes(*surface, least, all, visibility_->lift(), host);
-  if (skips_.negligible) {
-    stats_.skipped_negligible += light_->source_count() * (triangle_sides(*surface) - probes_.size());
-  }
   probed_.assign(probes_.size(), Color(0.0));
 }
 
