@@ -1,10 +1,13 @@
 // A bake through the public API: all-in processor time, from arrays to a solution, and the statistics.
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "baked_scene.h"
 #include "failure.h"
@@ -47,6 +50,30 @@ void measure(const bake::Options& options, const bake::SceneData& scene, const b
   std::vector<std::uint8_t> found;
   baked.measure(points, options.quantity, k_point_distance * glm::length(box.high - box.low), rgb, found);
   bake::save_values(file, rgb, found);
+}
+
+/// Direct light at the vertices as it is in the end.
+std::vector<float> final_vertices(const bake::SceneData& scene, bake::Options options) {
+  options.bake.disable |= RADVOR_DISABLE_INDIRECT;
+  bake::BakedScene baked(scene, options, log_errors, nullptr);
+  baked.run(nullptr, nullptr);
+  return baked.vertices(RADVOR_IRRADIANCE_DIRECT);
+}
+
+/// Over the mean of what is expected; `kept`: the share of the values that are least off.
+double relative_rms(const std::vector<float>& values, const std::vector<float>& expected, double kept) {
+  std::vector<double> squares;
+  double sum = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double off = static_cast<double>(values[i]) - static_cast<double>(expected[i]);
+    squares.push_back(off * off);
+    sum += static_cast<double>(expected[i]);
+  }
+  std::sort(squares.begin(), squares.end());
+  const double mean = sum / static_cast<double>(values.size());
+  squares.resize(static_cast<std::size_t>(kept * static_cast<double>(squares.size())));
+  const double all = std::accumulate(squares.begin(), squares.end(), 0.0);
+  return mean > 0 && !squares.empty() ? std::sqrt(all / static_cast<double>(squares.size())) / mean : 0;
 }
 
 nlohmann::json statistics(const bake::BakedScene& baked, radvor_result result, const bake::Options& options,
@@ -97,6 +124,7 @@ int slices_mode(double slice, int argc, const char* const* argv) {
   const double given = options->bake.max_seconds > 0 ? options->bake.max_seconds : 60;
   bake::Options unlimited = *options;
   unlimited.bake.max_seconds = 0;
+  const std::vector<float> vertices = final_vertices(scene, unlimited);
   bake::BakedScene baked(scene, unlimited, log_errors, nullptr);
   double total = 0;
   int number = 0;
@@ -112,6 +140,9 @@ int slices_mode(double slice, int argc, const char* const* argv) {
     }
     total += wall;
     nlohmann::json json{{"slice", number}, {"seconds", wall}, {"cpu_seconds", cpu}, {"total_seconds", total}};
+    const std::vector<float> now = baked.vertices(RADVOR_IRRADIANCE_DIRECT);
+    json["vertex_rms"] = relative_rms(now, vertices, 1);
+    json["vertex_rms99"] = relative_rms(now, vertices, 0.99);
     if (points.count() > 0) {
       const std::string file = options->points_out + "-" + std::to_string(number) + ".csv";
       measure(*options, scene, baked, points, file);

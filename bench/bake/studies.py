@@ -135,7 +135,8 @@ def embree(scenes, options):
 
 
 def first_light(scenes, options):
-    """Direct light in slices: what each took, and its error after each."""
+    """Direct light in slices: what each took, and its error after each: at random points, which the mesh must have
+    followed, and at the scene's own vertices."""
     result = {}
     for scene in scenes:
         reference = scene.reference(direct=True)
@@ -147,9 +148,11 @@ def first_light(scenes, options):
                 line["error"] = errors(reference, line.pop("points"))
         result[scene.name] = lines
         lit = next((line for line in lines if line["error"]["rms"] <= 0.3), None)
+        at_vertices = next((line for line in lines if line["vertex_rms"] <= 0.3), None)
         late = max((line["seconds"] for line in lines[1:]), default=0)
         say(f"{scene.name:<12} geometry {lines[0]['seconds']:.2f} s; direct light within 30 % after "
             + (f"{lit['total_seconds']:.2f} s in all" if lit else "more than 10 s")
+            + (f", at the vertices {at_vertices['total_seconds']:.2f} s" if at_vertices else ", never at the vertices")
             + f"; slices of {options.slice} s: the longest {late:.2f} s, of {len(lines) - 1}")
     return result
 

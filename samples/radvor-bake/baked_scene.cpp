@@ -116,6 +116,18 @@ radvor_stats BakedScene::stats() const {
   return stats;
 }
 
+std::vector<float> BakedScene::vertices(std::uint32_t quantity) const {
+  std::vector<float> rgb;
+  for (std::size_t id = 0; id < data_.meshes.size(); ++id) {
+    const std::size_t count = data_.meshes[id].positions.size(), first = rgb.size();
+    rgb.resize(first + 3 * count);
+    check(radvor_solution_vertices(solution_.get(), size32(id), quantity, RADVOR_VERTEX_SAMPLE, rgb.data() + first,
+                                   3 * sizeof(float), size32(count)),
+          "light at the vertices");
+  }
+  return rgb;
+}
+
 void BakedScene::measure(const Points& points, std::uint32_t quantity, double max_distance, std::vector<float>& rgb,
                          std::vector<std::uint8_t>& found) const {
   rgb.assign(points.count() * 3, 0.0f);

@@ -38,6 +38,9 @@ class BakedScene {
   std::vector<BakedMesh> meshes();
   radvor_stats stats() const;
 
+  /// The value at each vertex of all meshes, 3 floats a vertex.
+  std::vector<float> vertices(std::uint32_t quantity) const;
+
   /// rgb: 3 a point; found: 1 a point.
   void measure(const Points& points, std::uint32_t quantity, double max_distance, std::vector<float>& rgb,
                std::vector<std::uint8_t>& found) const;

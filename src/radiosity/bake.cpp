@@ -66,7 +66,11 @@ BakeStatus Bake::advance(double seconds, const ProgressCallback& callback) {
       break;
     }
     state_->broken = true;  // until the step is done
-    state_->step();
+    if (seconds > 0 && state_->guesses()) {
+      state_->guess();
+    } else {
+      state_->step();
+    }
     state_->broken = false;
     moved = true;
     (on_direct ? state_->seconds_direct : state_->seconds_indirect) += seconds_since(unit);

@@ -12,6 +12,8 @@ namespace {
 
 constexpr double k_pi = 3.14159265358979323846;
 
+constexpr double k_near = 25;  // times its area, the square of the distance that a surface is near from
+
 bool is_dark(const Color& color) {
   return !(color.r > 0 || color.g > 0 || color.b > 0);
 }
@@ -61,7 +63,18 @@ DirectLight::DirectLight(const Scene& scene, const WeldedScene& welded, const Fa
         power += emitter.area * luminance(emitter.radiosity);
         emitters_.push_back(emitter);
       }
-      emitting_facets_.push_back({first, static_cast<std::uint32_t>(emitters_.size()) - first});
+      EmitterRange range{first, static_cast<std::uint32_t>(emitters_.size()) - first};
+      Vec3 facing(0.0);
+      for (const Emitter& emitter : std::span(emitters_).subspan(first)) {
+        range.middle += emitter.area / 3 * (emitter.corners[0] + emitter.corners[1] + emitter.corners[2]);
+        range.area += emitter.area;
+        facing += emitter.area * emitter.normal;
+      }
+      if (range.area > 0) {
+        range.middle /= range.area;
+        range.normal = facing / std::max(glm::length(facing), 1e-300);
+      }
+      emitting_facets_.push_back(range);
     }
   }
   accuracy_.tolerance = tolerance;
@@ -78,13 +91,34 @@ Color DirectLight::irradiance(std::uint32_t source, const Receiver& receiver, Tr
   }
   source -= static_cast<std::uint32_t>(punctual_.size());
   Color sum(0.0);
-  const EmitterRange range = emitting_facets_[source];
+  const EmitterRange& range = emitting_facets_[source];
   for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
     Sight of_triangle;
     sum += irradiance_of_emitter(emitters_[i], receiver, tracer, accuracy_, occluders_, of_triangle);
     sight.add(of_triangle);
   }
   return sum;
+}
+
+DirectLight::Aim DirectLight::aim(std::uint32_t source, const Receiver& receiver) const {
+  if (source < punctual_.size()) {
+    Aim aim;
+    aim.irradiance = unhindered_irradiance(punctual_[source], receiver, far_, aim.at);
+    return aim;
+  }
+  const EmitterRange& range = emitting_facets_[source - punctual_.size()];
+  const Vec3 apart = range.middle - receiver.point;
+  const double there = glm::dot(receiver.normal, apart), back = -glm::dot(range.normal, apart);
+  if (!(there > 0 && back > 0)) {
+    return {};
+  }
+  // Of a disk of its area, which is exact where the two face each other.
+  const double square = glm::dot(apart, apart);
+  const double form_factor = there * back * range.area / (square * (k_pi * square + range.area));
+  // A little on this side, so that the surface does not hide itself.
+  constexpr double k_before = 1e-3;
+  return {form_factor * emitters_[range.first].radiosity, range.middle - k_before * apart,
+          square < k_near * range.area};
 }
 
 std::optional<DirectLight::Beam> DirectLight::beam(std::uint32_t source, const Vec3& to) const {
@@ -95,18 +129,12 @@ std::optional<DirectLight::Beam> DirectLight::beam(std::uint32_t source, const V
     }
     from = punctual_[source].position;
   } else {
-    const EmitterRange range = emitting_facets_[source - punctual_.size()];
-    double area = 0;
-    for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
-      const Emitter& emitter = emitters_[i];
-      from += emitter.area / 3 * (emitter.corners[0] + emitter.corners[1] + emitter.corners[2]);
-      facing += emitter.area * emitter.normal;
-      area += emitter.area;
-    }
-    if (area <= 0) {
+    const EmitterRange& range = emitting_facets_[source - punctual_.size()];
+    if (range.area <= 0) {
       return {};
     }
-    from /= area;
+    from = range.middle;
+    facing = range.normal;
   }
   const Vec3 apart = to - from;
   const double distance = glm::length(apart);

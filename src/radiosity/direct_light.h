@@ -36,6 +36,15 @@ class DirectLight {
   };
   std::optional<Beam> beam(std::uint32_t source, const Vec3& to) const;
 
+  /// What one source gives a receiver if nothing stands between, roughly: surfaces that emit as if they were in their
+  /// middle. And the place that is seen from the receiver if nothing does.
+  struct Aim {
+    Color irradiance{0.0};
+    Vec3 at{0.0};
+    bool near = false;  ///< a surface that emits, so near that its middle says little
+  };
+  Aim aim(std::uint32_t source, const Receiver& receiver) const;
+
   std::span<const Light> punctual_lights() const { return punctual_; }
   std::span<const Emitter> emitters() const { return emitters_; }
   /// All skies together, W sr^-1 m^-2.
@@ -46,6 +55,8 @@ class DirectLight {
  private:
   struct EmitterRange {
     std::uint32_t first, count;
+    double area = 0;
+    Vec3 middle{0.0}, normal{0.0};
   };
 
   const OccluderTree* occluders_;

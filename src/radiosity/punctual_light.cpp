@@ -132,4 +132,20 @@ Color irradiance_of_punctual_light(const Light& light, const Receiver& receiver,
                         visible_cosine(receiver, axis, sin_radius, distance, light.radius, tracer, sight));
 }
 
+Color unhindered_irradiance(const Light& light, const Receiver& receiver, double far, Vec3& at) {
+  if (light.type == LightType::directional) {
+    at = receiver.lifted - far * light.direction;
+    return light.color * std::max(0.0, -glm::dot(receiver.normal, light.direction));
+  }
+  const Vec3 apart = light.position - receiver.point;
+  const double distance = glm::length(apart);
+  if (distance <= light.radius || distance == 0) {
+    return Color(0.0);
+  }
+  const Vec3 axis = apart / distance;
+  at = light.position - light.radius * axis;
+  const double falloff = light.type == LightType::spot ? spot_falloff(light, -axis) : 1;
+  return light.color * (falloff * std::max(0.0, glm::dot(receiver.normal, axis)) / (distance * distance));
+}
+
 }  // namespace radvor

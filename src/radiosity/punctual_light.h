@@ -15,4 +15,7 @@ namespace radvor {
 Color irradiance_of_punctual_light(const Light& light, const Receiver& receiver, Tracer& tracer, double far,
                                    Sight& sight);
 
+/// The same if nothing stands between, from its middle alone; at: what is seen from the receiver then.
+Color unhindered_irradiance(const Light& light, const Receiver& receiver, double far, Vec3& at);
+
 }  // namespace radvor

@@ -46,6 +46,7 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
       shot_alone_(&host.memory),
       from_standouts_(&host.memory),
       glimpsed_(&host.memory),
+      guessed_(&host.memory),
       shown_(&host.memory),
       stood_out_(&host.memory),
       shadowed_(&host.memory),
@@ -171,6 +172,7 @@ void Solver::place_receivers() {
 void Solver::shine() {
   if (source_ == light_->source_count()) {
     stage_ = looking_ ? Stage::hemispheres : Stage::refinement;
+    guessed_ = std::pmr::vector<Color>(&host.memory);
     return;
   }
   const std::uint32_t end = next_blocks(4);

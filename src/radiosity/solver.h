@@ -55,6 +55,11 @@ class Solver {
   bool looks_around() const { return looking_; }
   void step();
 
+  /// For a bake that is shown between slices: whether there is a guess to make at what it shows until the sources have
+  /// shone on the first samples, and a unit of work on it. It goes nowhere else, and its rays are not counted.
+  bool guesses() const;
+  void guess();
+
   /// What direct_meanwhile() gives from now on; for as long as there is no other step.
   void show();
   void show_no_more();
@@ -173,6 +178,7 @@ class Solver {
   std::pmr::vector<Color> shot_alone_;            // radiosity of each share that shot in a standout; may be empty
   std::pmr::vector<Color> from_standouts_;        // irradiance of each sample by them; may be empty
   std::pmr::vector<float> glimpsed_;              // of each sample: share of its view that is sky, a guess
+  std::pmr::vector<Color> guessed_;               // of the first samples: light of all sources; in guess()'s blocks
   std::pmr::vector<Color> shown_;                 // between slices; empty: direct as it is
   std::pmr::vector<std::uint8_t> stood_out_;      // patches that have shot by themselves
 
@@ -189,6 +195,7 @@ class Solver {
   bool sounded_out_ = false;  // how many rays the scene is worth
   std::uint32_t level_ = 0;   // of the hemispheres
   std::uint32_t block_ = 0;   // next block of what is under way
+  std::uint32_t guessed_blocks_ = 0;
   std::uint32_t bounces_ = 0;
   double previous_unshot_ = 0, first_unshot_ = 0;
   std::uint64_t idle_rays_ = 0, rays_before_standouts_ = 0;  // the latter without the former

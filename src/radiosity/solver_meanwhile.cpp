@@ -3,10 +3,29 @@
 #include <new>
 #include <span>
 
+#include "radiosity/light_guess.h"
 #include "radiosity/method.h"
 #include "radiosity/solver.h"
 
 namespace radvor {
+
+bool Solver::guesses() const {
+  const bool first = stage_ == Stage::direct && !looking_ && round_ == 0;
+  return first && source_ < light_->source_count() && guessed_blocks_ < blocks_->count();
+}
+
+void Solver::guess() {
+  guessed_.resize(direct.size(), Color(0.0));
+  const std::uint32_t begin = guessed_blocks_;
+  guessed_blocks_ = std::min(blocks_->count(), begin + 4 * host.jobs.thread_count());
+  host.jobs.for_each(guessed_blocks_ - begin, [&](std::uint32_t index) {
+    Tracer tracer(*visibility_);
+    LightGuess guess(*light_, &host.memory);
+    for (const std::uint32_t sample : blocks_->block(begin + index)) {
+      guessed_[sample] = guess.at(receivers_[sample], tracer);
+    }
+  });
+}
 
 void Solver::show() {
   try {
@@ -20,6 +39,13 @@ void Solver::show() {
     shown_[i] += (known_[i] != 0 ? outlooks_[i].open : double{glimpsed_[i]}) * sky;
   };
   const bool shines = stage_ == Stage::direct && source_ < light_->source_count();
+  if (shines && !looking_ && round_ == 0) {
+    for (std::uint32_t block = 0; block < guessed_blocks_; ++block) {
+      for (const std::uint32_t sample : blocks_->block(block)) {
+        shown_[sample] = guessed_[sample];
+      }
+    }
+  }
   if (!looking_) {
     for (std::uint32_t i = 0; i < shown_.size(); ++i) {
       add_sky(i);

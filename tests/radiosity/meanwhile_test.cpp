@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "rooms.h"
 #include "test_bake.h"
@@ -81,6 +82,104 @@ TEST(Meanwhile, NewSamplesShowWhatTheyLieBetween) {
     }
   }
   EXPECT_GT(refined, 5u);
+}
+
+// A room, a wall from floor to ceiling across the middle of it.
+SceneBuilder room_with_a_wall() {
+  SceneBuilder builder;
+  const std::uint32_t grey = builder.material(Color(0.5));
+  builder.box({0, 0, 0}, {4, 2, 2}, true, grey);
+  builder.box({1.95, 0, 0}, {2.05, 2, 2}, false, grey);
+  return builder;
+}
+
+BakeOptions uniform() {
+  BakeOptions options;
+  options.disable = Disable::indirect;
+  options.spacing.patch_spacing = 0.5;
+  return options;
+}
+
+// Units of work until all sources are guessed at everywhere and none has shone: then the samples' light.
+std::vector<Color> guessed(TestBake& bake) {
+  for (const double before = (*bake).progress().converged; (*bake).progress().converged == before;) {
+    const auto shown = (*bake).direct();
+    std::vector<Color> guess(shown.begin(), shown.end());
+    if (bake->advance(1e-9, {}) != BakeStatus::time_spent || (*bake).progress().converged > before) {
+      return guess;  // the first source shines
+    }
+  }
+  return {};
+}
+
+TEST(Meanwhile, WhatNothingHidesIsGuessedExactlyFromLamps) {
+  SceneBuilder builder;
+  builder.box({0, 0, 0}, {4, 2, 2}, true, builder.material(Color(0.5)));
+  for (int lamp = 0; lamp < 20; ++lamp) {  // more than are asked
+    Light light;
+    light.type = LightType::point;
+    light.position = {0.2 + 0.18 * lamp, 1 + 0.5 * std::sin(lamp), 1.5};
+    light.color = Color(1, 0.5, 0.1 * lamp);
+    builder.scene.lights.push_back(light);
+  }
+  TestBake bake(builder.take(), uniform());
+  const std::vector<Color> guess = guessed(bake);
+  ASSERT_EQ(bake.run(), BakeStatus::converged);
+  ASSERT_EQ(guess.size(), (*bake).direct().size());
+  for (std::size_t i = 0; i < guess.size(); ++i) {
+    for (int channel = 0; channel < 3; ++channel) {
+      const double light = (*bake).direct()[i][channel];
+      ASSERT_NEAR(guess[i][channel], light, 1e-9 * light);
+    }
+  }
+}
+
+TEST(Meanwhile, WhatAWallHidesIsGuessedToATenthOfTheLampsLight) {
+  SceneBuilder builder = room_with_a_wall();
+  for (const double x : {0.7, 1.2, 3.1}) {
+    Light light;
+    light.type = LightType::point;
+    light.position = {x, 1, 1};
+    light.color = Color(x);
+    builder.scene.lights.push_back(light);
+  }
+  const std::pmr::vector<Light> lights = builder.scene.lights;
+  TestBake bake(builder.take(), uniform());
+  const std::vector<Color> guess = guessed(bake);
+  ASSERT_EQ(bake.run(), BakeStatus::converged);
+  ASSERT_EQ(guess.size(), (*bake).direct().size());
+  std::size_t hidden = 0;
+  for (std::size_t i = 0; i < guess.size(); ++i) {
+    const Sample& sample = (*bake).surface().samples()[i];
+    double unhindered = 0;
+    for (const Light& light : lights) {
+      const Vec3 apart = light.position - sample.point;
+      const double distance = glm::length(apart);
+      unhindered += light.color.r * std::max(0.0, glm::dot(sample.normal, apart)) / (distance * distance * distance);
+    }
+    ASSERT_NEAR(guess[i].r, (*bake).direct()[i].r, 0.1 * unhindered + 1e-12);
+    hidden += (*bake).direct()[i].r < 0.9 * unhindered ? 1 : 0;
+  }
+  EXPECT_GT(hidden, guess.size() / 10);
+}
+
+TEST(Meanwhile, PanelsAreGuessedToTenPercentFromTheFirstSlicesOn) {
+  SceneBuilder builder = room_with_a_wall();
+  const std::uint32_t lamp = builder.material(Color(0.5), Color(10.0));
+  builder.quad({0.5, 0.5, 1.9}, {0.5, 1.5, 1.9}, {1.5, 1.5, 1.9}, {1.5, 0.5, 1.9}, lamp);
+  builder.quad({3, 0.9, 1.5}, {3, 1.1, 1.5}, {3.2, 1.1, 1.5}, {3.2, 0.9, 1.5}, lamp);
+  TestBake bake(builder.take(), uniform());
+  const std::vector<Color> guess = guessed(bake);
+  ASSERT_EQ(bake.run(), BakeStatus::converged);
+  ASSERT_EQ(guess.size(), (*bake).direct().size());
+  double squares = 0, light = 0;
+  for (std::size_t i = 0; i < guess.size(); ++i) {
+    const double off = guess[i].r - (*bake).direct()[i].r;
+    squares += off * off;
+    light += (*bake).direct()[i].r;
+  }
+  const auto count = static_cast<double>(guess.size());
+  EXPECT_LT(std::sqrt(squares / count), 0.1 * light / count);
 }
 
 TEST(Meanwhile, WhatIsShownChangesNothing) {
