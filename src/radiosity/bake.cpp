@@ -51,6 +51,7 @@ BakeStatus Bake::advance(double seconds, const ProgressCallback& callback) {
   const double before = state_->seconds;
   BakeStatus status = BakeStatus::converged;
   state_->show_no_more();
+  state_->in_slices = seconds > 0;
   bool moved = false;  // every slice does a unit of work, however short it is: a sequence of them comes to its end
   while (state_->stage() != Solver::Stage::done) {
     const Clock::time_point unit = Clock::now();

@@ -126,18 +126,29 @@ void Gather::follow(const ShareChanges& changes) {
   }
 }
 
-void Gather::catch_up(const Surface& surface) {
-  constexpr std::size_t k_block = 64;
-  std::uint32_t first = 0;
+bool Gather::catch_up(const Surface& surface, std::uint64_t links) {
+  constexpr std::size_t k_block = 8;
   for (const Behind& behind : behind_) {
-    host_.jobs.for_ranges(behind.end - first, k_block, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) {
-        catch_up(records_[first + k], surface, behind.moves);
-      }
-    });
-    first = behind.end;
+    const std::uint32_t first = caught_up_;
+    std::uint64_t looked_at = 0;
+    for (; caught_up_ < behind.end && looked_at < links; ++caught_up_) {
+      looked_at += records_[caught_up_].links.size();
+    }
+    links -= std::min(links, looked_at);
+    if (first < caught_up_) {
+      host_.jobs.for_ranges(caught_up_ - first, k_block, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+          catch_up(records_[first + k], surface, behind.moves);
+        }
+      });
+    }
+  }
+  if (!behind_.empty() && caught_up_ < behind_.back().end) {
+    return false;
   }
   behind_.clear();
+  caught_up_ = 0;
+  return true;
 }
 
 void Gather::catch_up(Record& record, const Surface& surface, const ShareMoves& moves) const {

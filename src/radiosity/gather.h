@@ -55,8 +55,9 @@ class Gather {
 
   /// After the surface was refined. The links that there are must not be asked until they are caught up with it.
   void follow(const ShareChanges& changes);
-  /// Links to shares that were divided are drawn anew. Before ties are aligned.
-  void catch_up(const Surface& surface);
+  /// Links to shares that were divided are drawn anew: some records at a time, of about so many links. True when none
+  /// is left; until then nothing may be followed. Before ties are aligned.
+  bool catch_up(const Surface& surface, std::uint64_t links);
 
   /// Irradiance from all that the record's links shoot. radiosity: one a share, W m^-2.
   Color gather(std::uint32_t record, std::span<const glm::vec3> radiosity) const;
@@ -92,6 +93,7 @@ class Gather {
     ShareMoves moves;
   };
   std::pmr::vector<Behind> behind_;  // records of before the latest refinement, by how many they have seen
+  std::uint32_t caught_up_ = 0;      // the first so many of them
 };
 
 }  // namespace radvor

@@ -49,6 +49,7 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
       guessed_(&host.memory),
       shown_(&host.memory),
       stood_out_(&host.memory),
+      casts_(&host.memory),
       shadowed_(&host.memory),
       probes_(&host.memory),
       probed_(&host.memory),
@@ -115,11 +116,17 @@ void Solver::step() {
     case Stage::silhouettes:
       cast_shadows();
       break;
+    case Stage::shadows:
+      judge_shadows();
+      break;
     case Stage::probes:
       probe();
       break;
     case Stage::hemispheres:
       look_around();
+      break;
+    case Stage::first_bounce:
+      see_first_bounce();
       break;
     case Stage::fit:
       fit_between();
@@ -238,12 +245,14 @@ void Solver::report_convergence() {
       break;
     case Stage::refinement:
     case Stage::silhouettes:
+    case Stage::shadows:
     case Stage::probes:
       now = 0.4;
       break;
     case Stage::hemispheres:
       now = 0.4 + 0.4 * part;
       break;
+    case Stage::first_bounce:
     case Stage::fit:
     case Stage::account:
     case Stage::standouts:

@@ -1,9 +1,9 @@
 // The state of a bake and the steps of its loop. Each step is a unit of work whose order is fixed, small enough for a
-// time slice but for what plans and renumbers the mesh, sounds out its noise, judges shadows, and ends the bake.
+// time slice but for what plans and makes the mesh, sounds out its noise or smooths it away, and shoots by itself.
 //
 //   (glimpse, where there is a sky);
-//   direct -> refinement -> (once) silhouettes -> probes, again while they raise sites;
-//   hemispheres -> refinement -> probes, with direct before, again while they raise sites;
+//   direct -> refinement -> (once) silhouettes -> shadows -> probes, again while they raise sites;
+//   hemispheres -> first bounce -> refinement -> probes, with direct before, again while they raise sites;
 //   fit -> account -> standouts -> bounces -> finish
 //
 // Light of sources that have a place or a direction is exact at every sample, and the mesh follows it, level by level.
@@ -41,8 +41,10 @@ class Solver {
     direct,
     refinement,
     silhouettes,
+    shadows,
     probes,
     hemispheres,
+    first_bounce,
     fit,
     account,
     standouts,
@@ -54,6 +56,9 @@ class Solver {
   /// Light of sources with a place or a direction is done.
   bool looks_around() const { return looking_; }
   void step();
+
+  /// Smaller units of work, for slices, though more threads wait at their ends.
+  bool in_slices = false;
 
   /// For a bake that is shown between slices: whether there is a guess to make at what it shows until the sources have
   /// shone on the first samples, and a unit of work on it. It goes nowhere else, and its rays are not counted.
@@ -105,6 +110,7 @@ class Solver {
   std::uint32_t rays_by_sky(std::span<const std::uint32_t, 3> around, float glimpsed) const;
   void look_around();
   void see_first_bounce();
+  bool catch_up();
   void reflect_direct();
   void sound_out_noise();
   void interpolate(std::span<const std::uint32_t> samples, std::pmr::vector<Color>& values) const;
@@ -186,6 +192,7 @@ class Solver {
   std::uint32_t source_ = 0;                // of the direct stage
   std::uint32_t round_ = 0;                 // of refinement
   std::optional<Silhouettes> silhouettes_;  // until they are cast
+  std::pmr::vector<CastShadow> casts_;      // to be judged
   std::pmr::vector<Shadowed> shadowed_;
   std::pmr::vector<Probe> probes_;
   std::pmr::vector<Color> probed_;           // irradiance at each probe

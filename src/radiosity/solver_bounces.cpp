@@ -207,7 +207,7 @@ void Solver::bounce() {
     incoming_before_.swap(incoming_);
     incoming_.resize(incoming_before_.size());
   }
-  const std::uint32_t end = next_blocks(256);
+  const std::uint32_t end = next_blocks(in_slices ? 32 : 256);
   over_blocks(block_, end, [&](std::uint32_t sample, Tracer&) {
     incoming_[sample] = hemispheres_->gather(records_[sample], radiosity_);
   });

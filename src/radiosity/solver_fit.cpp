@@ -40,8 +40,10 @@ void Solver::place_fit_probes() {
 }
 
 void Solver::fit_between() {
+  if (!catch_up()) {
+    return;
+  }
   if (block_ == 0) {
-    hemispheres_->catch_up(*surface);
     align_ties();
     if (!options.spacing.refines || light_->source_count() == 0) {
       stage_ = Stage::account;

@@ -165,7 +165,7 @@ void Solver::look_around() {
   if (block_ == 0) {
     begin_level();
   }
-  const std::uint32_t end = next_blocks(4);
+  const std::uint32_t end = next_blocks(in_slices ? 1 : 4);
   over_blocks(block_, end, [&](std::uint32_t sample, Tracer& tracer) {
     look_from(sample, ray_counts_[records_[sample] - first_record_], tracer);
     known_[sample] = 1;
@@ -183,8 +183,7 @@ void Solver::look_around() {
   for (const std::uint32_t i : pending_) {
     direct[i] += outlooks_[i].open * sky;
   }
-  see_first_bounce();
-  stage_ = Stage::refinement;
+  stage_ = Stage::first_bounce;
 }
 
 // radiosity_: what direct light makes shares send.
@@ -202,26 +201,41 @@ void Solver::reflect_direct() {
 // What samples get by one reflection of direct light. Those that have looked around before see the mesh as it is now,
 // once it is much finer than when they last did: every one of their links is read again for it.
 void Solver::see_first_bounce() {
-  reflect_direct();
-  const auto count = static_cast<std::uint32_t>(records_.size());
-  const bool all = count > (1 + k_much_finer) * static_cast<double>(seen_by_all_);
-  if (all) {
-    hemispheres_->catch_up(*surface);
-    seen_by_all_ = count;
+  const std::size_t samples = records_.size();
+  const bool all = static_cast<double>(samples) > (1 + k_much_finer) * static_cast<double>(seen_by_all_);
+  if (all && !catch_up()) {
+    return;
   }
-  spreads_.resize(hemispheres_->size());
-  const auto see = [&](std::uint32_t sample) {
-    if (const std::uint32_t record = records_[sample]; record != k_none) {
-      first_bounce_[sample] = hemispheres_->gather(record, radiosity_);
-      spreads_[record] = static_cast<float>(hemispheres_->spread(record, radiosity_));
-    }
-  };
-  host.jobs.for_ranges(all ? count : pending_.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      see(all ? static_cast<std::uint32_t>(k) : pending_[k]);
+  if (block_ == 0) {
+    reflect_direct();
+    spreads_.resize(hemispheres_->size());
+  }
+  constexpr std::size_t k_block = 256;
+  const std::size_t count = all ? samples : pending_.size();
+  const std::size_t begin = block_ * k_block;
+  const std::size_t end = std::min(count, begin + (in_slices ? 8 : 64) * k_block * host.jobs.thread_count());
+  host.jobs.for_ranges(end - begin, k_block, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = begin + first; k < begin + last; ++k) {
+      const std::uint32_t sample = all ? static_cast<std::uint32_t>(k) : pending_[k];
+      if (const std::uint32_t record = records_[sample]; record != k_none) {
+        first_bounce_[sample] = hemispheres_->gather(record, radiosity_);
+        spreads_[record] = static_cast<float>(hemispheres_->spread(record, radiosity_));
+      }
     }
   });
-  interpolate(interpolated_, first_bounce_);
+  block_ = static_cast<std::uint32_t>((end + k_block - 1) / k_block);
+  if (end == count) {
+    block_ = 0;
+    seen_by_all_ = all ? samples : seen_by_all_;
+    interpolate(interpolated_, first_bounce_);
+    stage_ = Stage::refinement;
+  }
+}
+
+// A unit of work on links that the mesh went ahead of; whether that was all of them.
+bool Solver::catch_up() {
+  constexpr std::uint64_t k_links = 1u << 15;  // a thread, in slices
+  return hemispheres_->catch_up(*surface, (in_slices ? 1 : 16) * k_links * host.jobs.thread_count());
 }
 
 }  // namespace radvor

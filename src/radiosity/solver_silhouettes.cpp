@@ -28,9 +28,9 @@ void Solver::cast_shadows() {
   block_ = end;
   if (block_ == count) {
     block_ = 0;
-    judge_shadows();
+    casts_ = silhouettes_->largest_of_each();
     silhouettes_.reset();
-    stage_ = Stage::probes;
+    stage_ = Stage::shadows;
   }
 }
 
@@ -38,9 +38,7 @@ void Solver::cast_shadows() {
 // there: that alone, without a ray, settles most.
 void Solver::judge_shadows() {
   const double mean = mean_of(direct);
-  const std::pmr::vector<CastShadow> casts = silhouettes_->largest_of_each();
   const double noticed = k_noticed * receiving_area();
-  std::pmr::vector<std::optional<Shadowed>> judged(casts.size(), &host.memory);
   const auto judge = [&](const CastShadow& cast, Tracer& tracer) -> std::optional<Shadowed> {
     const FacetPoint point = surface->locate(cast.facet, cast.at);
     std::array<std::uint32_t, 3> around;
@@ -80,16 +78,27 @@ void Solver::judge_shadows() {
     return Shadowed{cast.facet, cast.back, cast.at, area, punctual_light(cast.receiver, tracer)};
   };
   constexpr std::uint32_t k_block = 64;
-  over(0, static_cast<std::uint32_t>((casts.size() + k_block - 1) / k_block), [&](std::uint32_t block, Tracer& tracer) {
-    const std::size_t stop = std::min<std::size_t>(casts.size(), std::size_t{block + 1} * k_block);
+  const auto count = static_cast<std::uint32_t>((casts_.size() + k_block - 1) / k_block);
+  const std::uint32_t end = std::min(count, block_ + 16 * host.jobs.thread_count());
+  const std::size_t first = std::size_t{block_} * k_block;
+  std::pmr::vector<std::optional<Shadowed>> judged(std::min(casts_.size(), std::size_t{end} * k_block) - first,
+                                                   &host.memory);
+  over(block_, end, [&](std::uint32_t block, Tracer& tracer) {
+    const std::size_t stop = std::min<std::size_t>(casts_.size(), std::size_t{block + 1} * k_block);
     for (std::size_t k = std::size_t{block} * k_block; k < stop; ++k) {
-      judged[k] = judge(casts[k], tracer);
+      judged[k - first] = judge(casts_[k], tracer);
     }
   });
   for (const std::optional<Shadowed>& place : judged) {
     if (place) {
       shadowed_.push_back(*place);
     }
+  }
+  block_ = end;
+  if (block_ == count) {
+    block_ = 0;
+    casts_ = std::pmr::vector<CastShadow>(&host.memory);
+    stage_ = Stage::probes;
   }
 }
 

@@ -83,7 +83,8 @@ class Links : public testing::Test {
 
   // What a record gathers of shares that shoot: green and blue numbers of no pattern, red nothing from the first sites.
   Color gathered(std::uint32_t record, std::size_t first_sites) {
-    gather.catch_up(made.surface);
+    while (!gather.catch_up(made.surface, 2 * k_rays)) {
+    }
     std::vector<glm::vec3> radiosity;
     for (std::uint32_t s = 0; s < made.surface.shares().size(); ++s) {
       const bool is_new = made.surface.samples()[made.surface.shares()[s].sample].site >= first_sites;
@@ -134,7 +135,9 @@ TEST_F(Links, StayWhereNothingIsDivided) {
     before.push_back(gathered_by_place(r));
   }
   refine({1, 0.5, 0}, 0.25);
-  gather.catch_up(made.surface);
+  EXPECT_FALSE(gather.catch_up(made.surface, 2 * k_rays));  // a unit of work at a time
+  while (!gather.catch_up(made.surface, 2 * k_rays)) {
+  }
   ASSERT_GT(made.surface.shares().size(), shares_before);
   for (std::uint32_t r = 0; r < receivers.size(); ++r) {
     EXPECT_EQ(gathered_by_place(r), before[r]) << "receiver " << r;

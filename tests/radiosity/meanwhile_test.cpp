@@ -188,6 +188,8 @@ TEST(Meanwhile, WhatIsShownChangesNothing) {
   ASSERT_EQ(whole.run(), BakeStatus::converged);
   EXPECT_TRUE(std::equal((*sliced).direct().begin(), (*sliced).direct().end(), (*whole).direct().begin(),
                          (*whole).direct().end()));
+  EXPECT_TRUE(std::equal((*sliced).indirect().begin(), (*sliced).indirect().end(), (*whole).indirect().begin(),
+                         (*whole).indirect().end()));
   EXPECT_EQ((*sliced).stats().rays, (*whole).stats().rays);
 }
 
