@@ -49,6 +49,7 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
       guessed_(&host.memory),
       shown_(&host.memory),
       stood_out_(&host.memory),
+      raised_(&host.memory),
       casts_(&host.memory),
       shadowed_(&host.memory),
       probes_(&host.memory),
@@ -112,6 +113,9 @@ void Solver::step() {
       break;
     case Stage::refinement:
       refine();
+      break;
+    case Stage::remake:
+      remake();
       break;
     case Stage::silhouettes:
       cast_shadows();
@@ -244,6 +248,7 @@ void Solver::report_convergence() {
       now = 0.4 * (source_ + part) / std::max(1u, light_->source_count());
       break;
     case Stage::refinement:
+    case Stage::remake:
     case Stage::silhouettes:
     case Stage::shadows:
     case Stage::probes:

@@ -2,8 +2,8 @@
 // time slice but for what plans and makes the mesh, sounds out its noise or smooths it away, and shoots by itself.
 //
 //   (glimpse, where there is a sky);
-//   direct -> refinement -> (once) silhouettes -> shadows -> probes, again while they raise sites;
-//   hemispheres -> first bounce -> refinement -> probes, with direct before, again while they raise sites;
+//   direct -> refinement, remake -> (once) silhouettes -> shadows -> probes, again while they raise sites;
+//   hemispheres -> first bounce -> refinement, remake -> probes, with direct before, again while they raise sites;
 //   fit -> account -> standouts -> bounces -> finish
 //
 // Light of sources that have a place or a direction is exact at every sample, and the mesh follows it, level by level.
@@ -40,6 +40,7 @@ class Solver {
     glimpse,
     direct,
     refinement,
+    remake,
     silhouettes,
     shadows,
     probes,
@@ -89,6 +90,8 @@ class Solver {
   void glimpse();
   void shine();
   void refine();
+  void remake();
+  void end_refinement();
   void cast_shadows();
   void judge_shadows();
   double score_of(double found, double expected, double mean, double area) const;
@@ -192,6 +195,7 @@ class Solver {
   std::uint32_t source_ = 0;                // of the direct stage
   std::uint32_t round_ = 0;                 // of refinement
   std::optional<Silhouettes> silhouettes_;  // until they are cast
+  std::pmr::vector<std::uint32_t> raised_;  // sites, by the refinement that is planned
   std::pmr::vector<CastShadow> casts_;      // to be judged
   std::pmr::vector<Shadowed> shadowed_;
   std::pmr::vector<Probe> probes_;

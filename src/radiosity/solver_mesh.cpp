@@ -29,10 +29,26 @@ void Solver::refine() {
   if (options.spacing.refines && round_ < 2 * surface->max_level()) {
     const double mean = mean_of(light);
     const RefinementGoal goal{k_share_of_mesh * options.tolerance, k_local * options.tolerance, mean};
-    if (mean > 0 && raise(plan_refinement(*surface, {light, sights_}, goal, host))) {
+    if (mean > 0) {
+      raised_ = plan_refinement(*surface, {light, sights_}, goal, host);
+    }
+    if (!raised_.empty()) {
+      stage_ = Stage::remake;
       return;
     }
   }
+  end_refinement();
+}
+
+void Solver::remake() {
+  const std::pmr::vector<std::uint32_t> raised(std::move(raised_));
+  raised_.clear();
+  if (!raise(raised)) {
+    end_refinement();
+  }
+}
+
+void Solver::end_refinement() {
   if (options.spacing.refines) {
     stage_ = silhouettes_ ? Stage::silhouettes : Stage::probes;
   } else if (looking_) {
