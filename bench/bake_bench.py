@@ -35,12 +35,17 @@ def parse_arguments():
     parser.add_argument("--max-seconds", type=float, default=60, help="processor seconds of one bake")
     parser.add_argument("--tracer-seconds", type=float, default=10, help="no doubling of samples begins after that")
     parser.add_argument("--tolerance", type=float, default=0.02, help="of the studies")
+    parser.add_argument("--seeds", type=int, default=32, help="of skips, 3 at least: bakes with each skip off, and as many with it")
+    parser.add_argument("--off", default=",".join(curves.k_skips), help="of skips: those that are turned off, each by itself")
     parser.add_argument("--slice", type=float, default=0.05, help="of first-light")
     parser.add_argument("--triangles", type=int, default=1_000_000, help="of the city")
     parser.add_argument("--json", type=pathlib.Path, default=k_root / "build/bench/bake.json")
     parser.add_argument("--pictures", type=pathlib.Path, default=k_root / "build/bench")
     options = parser.parse_args()
     options.only = options.only.split(",")
+    options.off = options.off.split(",")
+    if options.seeds < 3:
+        parser.error("--seeds: 3 at least, or there is no standard error")
     return options
 
 

@@ -1,5 +1,5 @@
-"""What the curves do not tell: each skip's worth and harmlessness, threads, growth, the share of ray casting, first
-light, and a city of a million triangles. Every study prints as it goes and returns what goes into the JSON."""
+"""What the curves do not tell: threads, growth, the share of ray casting, first light, and a city of a million triangles;
+skips have a file of their own. Every study prints as it goes and returns what goes into the JSON."""
 import concurrent.futures
 import math
 import os
@@ -9,39 +9,13 @@ import tempfile
 import curves
 import runs
 from errors import errors, load_reference
+from skips import skips
 
 k_city_lights = ["--light", "sky 1 1.2 1.5", "--light", "sun 0.4 -1 0.3 6 5.6 5"]
 
 
 def say(*words):
     print(*words, flush=True)
-
-
-def skips(scenes, options):
-    """With each skip off: seconds, rays, error, and how far the light moved (rms over the reference's mean); beside
-    that how far it moves where nothing but the random numbers is another."""
-    result = {}
-    for scene in scenes:
-        mean = load_reference(scene.reference())[0].mean()
-        rows = {}
-        for skip in ("none", *curves.k_skips, "seed"):
-            arguments = ["--tolerance", options.tolerance, "--threads", 1]
-            arguments += {"none": [], "seed": ["--seed", 7]}.get(skip, ["--disable", skip])
-            run = runs.bake(scene, arguments, options.max_seconds, keep=True)
-            if run is None:
-                say(f"{scene.name:<12} without {skip}: no answer in time")
-                continue
-            values = run.pop("values")
-            if skip == "none":
-                base = values
-            run["moved"] = math.sqrt(float(((values - base) ** 2).mean())) / mean
-            rows[skip] = run
-            curves.say(scene, "another seed" if skip == "seed" else f"off: {skip}", run)
-            say(f"{'':<12} moved {100 * run['moved']:.3f} %")
-            if skip == "none" and not run["finished"]:
-                break
-        result[scene.name] = rows
-    return result
 
 
 def threads(scenes, options):

@@ -8,6 +8,10 @@ def percent(value, digits=1):
     return f"{100 * value:.{digits}f} %"
 
 
+def with_error(value, error, sign=""):
+    return f"{100 * value:{sign}.3f} ± {100 * error:.3f} %"
+
+
 def table(heading, rows):
     print("| " + " | ".join(heading) + " |")
     print("|" + "---|" * len(heading))
@@ -54,12 +58,18 @@ def curves(data):
 def skips(data):
     rows = []
     for scene, study in data.get("skips", {}).items():
-        base = study.get("none")
-        for skip, run in study.items():
-            rows.append([scene, {"none": "all on", "seed": "all on, another seed"}.get(skip, f"{skip} off"), seconds(run["cpu_seconds"]),
-                         f"{run['cpu_seconds'] / base['cpu_seconds']:.2f}", f"{run['rays'] / 1e6:.2f} M",
-                         percent(run["error"]["rms"], 2), "–" if skip == "none" else percent(run["moved"], 3)])
-    table(["scene", "skips", "processor time", "over all on", "rays", "rms", "light moved by"], rows)
+        base = study["none"]
+        for skip, row in study.items():
+            left = row["lasting_error"]
+            moved = row.get("moved")
+            rows.append([scene, "all on" if skip == "none" else f"{skip} off", row["seeds"], seconds(row["cpu_seconds"]),
+                         f"{row['cpu_seconds'] / base['cpu_seconds']:.2f}", f"{row['rays'] / 1e6:.2f} M",
+                         percent(row["rms"], 2), with_error(left["rms"], left["standard_error"]),
+                         with_error(left["bias"], left["bias_standard_error"], "+"),
+                         with_error(moved["rms"], moved["standard_error"]) if moved else "–",
+                         with_error(moved["brighter"], moved["brighter_standard_error"], "+") if moved else "–"])
+    table(["scene", "skips", "seeds", "processor time", "over all on", "rays", "rms", "rms of the seeds' mean", "bias",
+           "light moved by", "brighter with it on"], rows)
 
 
 def threads(data):
