@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -118,6 +119,7 @@ Outlook Gather::glance(const Receiver& receiver, std::uint32_t ray_count, std::u
 }
 
 void Gather::follow(const ShareChanges& changes) {
+  assert(caught_up_ == 0);
   for (Behind& behind : behind_) {
     behind.moves.follow(changes, host_);
   }

@@ -30,7 +30,7 @@ inline constexpr double k_share_of_mesh = 0.5;
 /// Of the tolerance: what may be missing when the bake has converged.
 inline constexpr double k_share_left_unshot = 0.01;
 
-/// Of all light: what bounces are no more than, since what shares send is a float.
+/// Of all light: bounces that bring less are lost in rounding, since what shares send is a float.
 inline constexpr double k_lost_to_rounding = 1e-7;
 
 /// The samples that a sample lies between are not known, or are no more.

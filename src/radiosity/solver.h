@@ -207,6 +207,7 @@ class Solver {
   std::uint32_t level_ = 0;   // of the hemispheres
   std::uint32_t block_ = 0;   // next block of what is under way
   std::uint32_t guessed_blocks_ = 0;
+  bool may_guess_ = true;  // memory has not run out over it
   std::uint32_t bounces_ = 0;
   double previous_unshot_ = 0, first_unshot_ = 0;
   std::uint64_t idle_rays_ = 0, rays_before_standouts_ = 0;  // the latter without the former

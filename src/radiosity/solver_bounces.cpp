@@ -152,8 +152,9 @@ bool Solver::begin_bounce() {
   previous_unshot_ = left;
   // So put that light which is not a number ends too.
   const double least = skips_.negligible ? k_share_left_unshot * options.tolerance : k_lost_to_rounding;
+  const bool allowed = options.max_bounces == 0 || bounces_ < options.max_bounces;
   if (!(left / (1 - ratio) > least * received)) {
-    if (skips_.negligible && left > 0) {
+    if (skips_.negligible && left > 0 && allowed) {
       stats_.skipped_negligible += pending_.size();  // of one bounce more
     }
     if (options.max_bounces == 0 && bounces_ > 1) {
@@ -161,7 +162,7 @@ bool Solver::begin_bounce() {
     }
     return false;
   }
-  if (options.max_bounces != 0 && bounces_ >= options.max_bounces) {
+  if (!allowed) {
     return false;
   }
   const auto shares = surface->shares();

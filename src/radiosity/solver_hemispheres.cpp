@@ -1,6 +1,7 @@
 // Light from all around: which samples look at it, with how many rays, and what the others make of that.
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <numeric>
@@ -219,7 +220,9 @@ void Solver::see_first_bounce() {
       const std::uint32_t sample = all ? static_cast<std::uint32_t>(k) : pending_[k];
       if (const std::uint32_t record = records_[sample]; record != k_none) {
         first_bounce_[sample] = hemispheres_->gather(record, radiosity_);
-        spreads_[record] = static_cast<float>(hemispheres_->spread(record, radiosity_));
+        // Where a facet was taken apart samples share a record, and tell the same of it.
+        std::atomic_ref(spreads_[record])
+            .store(static_cast<float>(hemispheres_->spread(record, radiosity_)), std::memory_order_relaxed);
       }
     }
   });

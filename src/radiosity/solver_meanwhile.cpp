@@ -1,5 +1,6 @@
 // What a bake shows between slices of time: the light that is there, and a guess at what is still to come to some
 // samples. What is shown goes nowhere: slices or none, a bake ends the same.
+#include <algorithm>
 #include <new>
 #include <span>
 
@@ -11,20 +12,25 @@ namespace radvor {
 
 bool Solver::guesses() const {
   const bool first = stage_ == Stage::direct && !looking_ && round_ == 0;
-  return first && source_ < light_->source_count() && guessed_blocks_ < blocks_->count();
+  return may_guess_ && first && source_ < light_->source_count() && guessed_blocks_ < blocks_->count();
 }
 
 void Solver::guess() {
-  guessed_.resize(direct.size(), Color(0.0));
-  const std::uint32_t begin = guessed_blocks_;
-  guessed_blocks_ = std::min(blocks_->count(), begin + 4 * host.jobs.thread_count());
-  host.jobs.for_each(guessed_blocks_ - begin, [&](std::uint32_t index) {
-    Tracer tracer(*visibility_);
-    LightGuess guess(*light_, &host.memory);
-    for (const std::uint32_t sample : blocks_->block(begin + index)) {
-      guessed_[sample] = guess.at(receivers_[sample], tracer);
-    }
-  });
+  try {
+    guessed_.resize(direct.size(), Color(0.0));
+    const std::uint32_t begin = guessed_blocks_;
+    const std::uint32_t end = std::min(blocks_->count(), begin + 4 * host.jobs.thread_count());
+    host.jobs.for_each(end - begin, [&](std::uint32_t index) {
+      Tracer tracer(*visibility_);
+      LightGuess guess(*light_, &host.memory);
+      for (const std::uint32_t sample : blocks_->block(begin + index)) {
+        guessed_[sample] = guess.at(receivers_[sample], tracer);
+      }
+    });
+    guessed_blocks_ = end;
+  } catch (const std::bad_alloc&) {  // it is for show alone
+    may_guess_ = false;
+  }
 }
 
 void Solver::show() {

@@ -107,6 +107,7 @@ class Surface {
   std::span<const Share> shares() const;
   /// Groups the shares into patches, anew after each refinement: most refinements are not followed by a shot. Before
   /// that there are none, and Share::patch says nothing.
+  /// Parts of a facet that see no site of level 0 are told apart by the triangles as they are, aligned ties too.
   void group_patches();
   std::uint32_t patch_count() const;
   /// Shares of one patch, ascending.
@@ -134,7 +135,7 @@ class Surface {
                                         std::span<const WantedSite> wanted = {});
 
   /// The first part of refine(): what it does to sites shows at once, in sites() and level_of(); all else is as it was
-  /// until the next refine(), which may be asked for no more sites. For those who know what to raise without light.
+  /// until the next refine(), be it one of no sites. For those who know what to raise without light.
   void raise(std::span<const std::uint32_t> sites, std::uint32_t max_sites = 0);
 
   /// How often the surroundings of a site were refined: at least its own level, at most max_level(). Levels of sites

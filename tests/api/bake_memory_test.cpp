@@ -94,8 +94,8 @@ TEST_F(BakeMemory, RefusedWhileAdvancingLeavesWhatCanOnlyBeDestroyed) {
 TEST_F(BakeMemory, RefusedInASliceBreaksTheSolutionOrNothing) {
   const radvor_bake_options options = coarse();
   int broken = 0, whole = 0;
-  for (std::uint64_t n = 1; n <= 40; ++n) {
-    for (int before = 0; before < 4; ++before) {
+  for (std::uint64_t n = 1; n <= 20; ++n) {
+    for (int before = 0; before < 8; ++before) {
       radvor_solution* solution = nullptr;
       ASSERT_EQ(radvor_solution_create(scene_, &options, &solution), RADVOR_OK) << engine_.error();
       for (int slice = 0; slice < before; ++slice) {
