@@ -38,9 +38,8 @@ class Jobs {
   /// Calls function(begin, end) for ranges of at most `size` that together are 0 to count.
   template <class Function>
   void for_ranges(std::size_t count, std::size_t size, Function&& function) const {
-    for_each(static_cast<std::uint32_t>((count + size - 1) / size), [&](std::uint32_t range) {
-      function(range * size, std::min(count, (range + 1) * size));
-    });
+    for_each(static_cast<std::uint32_t>((count + size - 1) / size),
+             [&](std::uint32_t range) { function(range * size, std::min(count, (range + 1) * size)); });
   }
 
   /// Runs function on one thread in an arena of that one thread: for libraries that bring their own parallelism
