@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "bake/modes.h"
-#include "kept_memory.h"
 
 namespace {
 
@@ -88,7 +87,6 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  bake::keep_freed_memory();
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {

@@ -8,7 +8,6 @@
 #include "baked_scene.h"
 #include "failure.h"
 #include "gltf_file.h"
-#include "kept_memory.h"
 #include "obj_file.h"
 #include "options.h"
 #include "output_file.h"
@@ -119,7 +118,6 @@ int run(int argc, const char* const* argv) {
 }  // namespace bake
 
 int main(int argc, char** argv) {
-  bake::keep_freed_memory();
   try {
     return bake::run(argc, argv);
   } catch (const bake::Failure& failure) {

@@ -1,38 +1,48 @@
 #include "base/memory.h"
 
-#include <algorithm>
 #include <new>
-
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
 
 namespace radvor {
 
 namespace {
 
-// Large blocks are read all over (a triangulation's triangles, light of all samples): in pages of 4 KiB every step of a
-// walk misses the table of pages too. Linux gives larger ones to who asks.
-constexpr std::size_t k_large = std::size_t{16} << 20, k_large_page = std::size_t{2} << 20;
-
-std::size_t own_alignment(std::size_t bytes, std::size_t alignment) {
-  return bytes >= k_large ? std::max(alignment, k_large_page) : alignment;
-}
-
-void* own_allocate(std::size_t bytes, std::size_t alignment) {
-  void* memory = ::operator new(bytes, std::align_val_t(own_alignment(bytes, alignment)), std::nothrow);
-#ifdef __linux__
-  if (memory != nullptr && bytes >= k_large) {
-    madvise(memory, bytes / k_large_page * k_large_page, MADV_HUGEPAGE);  // where it is refused pages stay small
-  }
+// AddressSanitizer watches the bounds of what it hands out itself.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool k_regions = false;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+constexpr bool k_regions = false;
+#else
+constexpr bool k_regions = true;
 #endif
-  return memory;
+#else
+constexpr bool k_regions = true;
+#endif
+
+constexpr bool is_for_regions(std::size_t bytes, std::size_t alignment) {
+  return k_regions && bytes >= Regions::k_least && alignment <= Regions::k_page;
 }
 
 }  // namespace
 
 HostMemory::HostMemory(Acquire acquire, Release release, void* user) noexcept
     : acquire_(acquire), release_(release), user_(user) {}
+
+void* HostMemory::own_allocate(std::size_t bytes, std::size_t alignment) {
+  if (is_for_regions(bytes, alignment)) {
+    if (void* block = regions_.allocate(bytes)) {
+      return block;
+    }
+  }
+  return ::operator new(bytes, std::align_val_t(alignment), std::nothrow);
+}
+
+void HostMemory::own_deallocate(void* memory, std::size_t bytes, std::size_t alignment) {
+  if (!is_for_regions(bytes, alignment) || !regions_.deallocate(memory, bytes)) {
+    // Without the size: clang 14 has that one on request only.
+    ::operator delete(memory, std::align_val_t(alignment));
+  }
+}
 
 void* HostMemory::do_allocate(std::size_t bytes, std::size_t alignment) {
   void* memory = acquire_ ? acquire_(user_, bytes, alignment) : own_allocate(bytes, alignment);
@@ -51,8 +61,7 @@ void HostMemory::do_deallocate(void* memory, std::size_t bytes, std::size_t alig
   if (release_) {
     release_(user_, memory, bytes, alignment);
   } else if (!acquire_) {
-    // Without the size: clang 14 has that one on request only.
-    ::operator delete(memory, std::align_val_t(own_alignment(bytes, alignment)));
+    own_deallocate(memory, bytes, alignment);
   }
 }
 

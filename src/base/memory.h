@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <memory_resource>
 
+#include "base/regions.h"
+
 namespace radvor {
 
 class HostMemory final : public std::pmr::memory_resource {
@@ -13,7 +15,7 @@ class HostMemory final : public std::pmr::memory_resource {
   using Acquire = void* (*)(void* user, std::size_t bytes, std::size_t alignment);
   using Release = void (*)(void* user, void* memory, std::size_t bytes, std::size_t alignment);
 
-  /// NULL callbacks: the C++ runtime's aligned new and delete.
+  /// NULL callbacks: the C++ runtime's aligned new and delete, and regions for what is large.
   HostMemory(Acquire acquire, Release release, void* user) noexcept;
 
   std::uint64_t live_bytes() const noexcept { return live_.load(std::memory_order_relaxed); }
@@ -24,9 +26,13 @@ class HostMemory final : public std::pmr::memory_resource {
   void do_deallocate(void* memory, std::size_t bytes, std::size_t alignment) override;
   bool do_is_equal(const std::pmr::memory_resource& other) const noexcept override { return this == &other; }
 
+  void* own_allocate(std::size_t bytes, std::size_t alignment);
+  void own_deallocate(void* memory, std::size_t bytes, std::size_t alignment);
+
   Acquire acquire_;
   Release release_;
   void* user_;
+  Regions regions_;
   std::atomic<std::uint64_t> live_{0};
   std::atomic<std::uint64_t> peak_{0};
 };
