@@ -11,6 +11,9 @@ namespace {
 
 constexpr double k_local = 5;  // tolerances that a place may be off relative to its own light
 
+// Of all samples. So few sites rise by two levels at once: the next round, a pass over everything, would be for them.
+constexpr double k_few = 0.0005;
+
 constexpr std::size_t k_range = 4096;  // samples of a task that does little to each
 
 }  // namespace
@@ -72,6 +75,9 @@ bool Solver::raise(std::span<const std::uint32_t> raised) {
     for (const Sample& sample : surface->samples()) {
       before_sites.push_back(sample.site);
     }
+  }
+  if (static_cast<double>(raised.size()) < k_few * static_cast<double>(direct.size())) {
+    surface->raise(raised, most);
   }
   const auto origins = surface->refine(raised, most);
   follow(before, before_sites, origins);
