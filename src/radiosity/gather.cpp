@@ -16,6 +16,13 @@ namespace {
 // The corner of a hit's triangle that a ray's link stands for: drawn by the weights, with the golden ratio's multiples,
 // which are spread evenly whatever their number. Corners are taken from the lowest share on, since their order in a
 // triangle may turn when its facet is triangulated anew, and the ray is to draw the same.
+void fetch(const Facet& facet) {
+  constexpr std::size_t k_line = 64;
+  for (std::size_t at = 0; at < sizeof(Facet); at += k_line) {
+    __builtin_prefetch(reinterpret_cast<const char*>(&facet) + at);
+  }
+}
+
 class Draw {
  public:
   explicit Draw(std::uint64_t seed) : first_(to_unit(mix(seed + 1))) {}
@@ -67,6 +74,9 @@ Outlook Gather::look(const Receiver& receiver, std::uint32_t ray_count, std::uin
   std::array<std::uint32_t, k_packet> rays;
   std::array<Vec3, k_packet> along;
   std::array<FirstHit, k_packet> hits;
+  std::array<std::uint32_t, k_packet> facets, shooting;
+  std::array<PlanePoint, k_packet> points;
+  std::array<FacetPoint, k_packet> found;
   std::uint32_t open = 0, backs = 0;
   double inverse_distance = 0;
   for (std::uint32_t first = 0; first < ray_count; first += k_packet) {
@@ -77,21 +87,32 @@ Outlook Gather::look(const Receiver& receiver, std::uint32_t ray_count, std::uin
     }
     tracer.first_hits(receiver.lifted, std::span(along.data(), count), hits.data());
     for (std::uint32_t k = 0; k < count; ++k) {
+      if (hits[k].triangle != FirstHit::k_miss) {
+        facets[k] = facets_.facet_of_triangle[occluders_[hits[k].triangle]];
+        fetch(facets_.facets[facets[k]]);
+      }
+    }
+    std::uint32_t met = 0;
+    for (std::uint32_t k = 0; k < count; ++k) {
       const FirstHit& hit = hits[k];
       if (hit.triangle == FirstHit::k_miss) {
         ++open;
         continue;
       }
       inverse_distance += 1 / hit.distance;
-      const std::uint32_t facet = facets_.facet_of_triangle[occluders_[hit.triangle]];
-      const Facet& described = facets_.facets[facet];
+      const Facet& described = facets_.facets[facets[k]];
       if (!scene_.meshes[described.mesh].receives || (!hit.front && !scene_.materials[described.material].two_sided)) {
         ++backs;
         continue;
       }
-      const Vec2 point = described.frame.to_plane(receiver.lifted + hit.distance * along[k]);
-      const std::uint32_t front = draw.share(surface.locate(facet, point), rays[k]);
-      on_link(rays[k], hit.front ? front : shares[front].other_side);
+      points[met] = {facets[k], described.frame.to_plane(receiver.lifted + hit.distance * along[k])};
+      shooting[met++] = k;
+    }
+    surface.locate(std::span(points.data(), met), found.data());
+    for (std::uint32_t i = 0; i < met; ++i) {
+      const std::uint32_t k = shooting[i];
+      const std::uint32_t front = draw.share(found[i], rays[k]);
+      on_link(rays[k], hits[k].front ? front : shares[front].other_side);
     }
   }
   const double weight = 1.0 / ray_count;

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/floating_point.h"
 #include "surface/facet_location.h"
+#include "surface/locate_together.h"
 #include "surface/make_surface.h"
 #include "surface/refinement.h"
 #include "surface/surface_parts.h"
@@ -175,6 +176,10 @@ void Surface::cell(std::uint32_t index, std::pmr::vector<Vec3>& polygon) const {
 
 FacetPoint Surface::locate(std::uint32_t facet, const Vec2& point) const {
   return state_->located(facet).locate(point);
+}
+
+void Surface::locate(std::span<const PlanePoint> points, FacetPoint* found) const {
+  locate_together(*state_, points, found);
 }
 
 std::optional<FacetPoint> Surface::find(std::uint32_t facet, const Vec2& point) const {

@@ -93,6 +93,12 @@ struct FacetPoint {
   std::array<double, 3> weights;  ///< barycentric, clamped to the triangle, sum 1
 };
 
+/// A point of a facet's plane.
+struct PlanePoint {
+  std::uint32_t facet;
+  Vec2 at;
+};
+
 class Surface {
  public:
   /// Facets of meshes that do not receive have no sites. Borders are sampled from each edge's midpoint outward,
@@ -157,6 +163,8 @@ class Surface {
 
   /// The triangle of a facet at a point of its plane (the nearest where rounding puts the point outside).
   FacetPoint locate(std::uint32_t facet, const Vec2& point) const;
+  /// The same of many, for less than one after the other: found[i] of points[i].
+  void locate(std::span<const PlanePoint> points, FacetPoint* found) const;
   /// The same; nothing where the point is beside the facet, or it takes long to say.
   std::optional<FacetPoint> find(std::uint32_t facet, const Vec2& point) const;
 

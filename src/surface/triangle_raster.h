@@ -20,17 +20,24 @@ class TriangleRaster {
 
   /// A real triangle near the point, or delaunay::k_none.
   delaunay::TriangleId at(const Vec2& point) const {
-    if (triangles_.empty()) {
-      return delaunay::k_none;
+    return triangles_.empty() ? delaunay::k_none : triangles_[square(point)];
+  }
+  /// Asks memory ahead for that.
+  void fetch(const Vec2& point) const {
+    if (!triangles_.empty()) {
+      __builtin_prefetch(&triangles_[square(point)]);
     }
-    const auto index = [](double offset, std::uint32_t count) {
-      return static_cast<std::size_t>(std::clamp(offset, 0.0, static_cast<double>(count - 1)));
-    };
-    return triangles_[index((point.y - low_.y) * per_unit_.y, rows_) * columns_ +
-                      index((point.x - low_.x) * per_unit_.x, columns_)];
   }
 
  private:
+  std::size_t square(const Vec2& point) const {
+    const auto index = [](double offset, std::uint32_t count) {
+      return static_cast<std::size_t>(std::clamp(offset, 0.0, static_cast<double>(count - 1)));
+    };
+    return index((point.y - low_.y) * per_unit_.y, rows_) * columns_ +
+           index((point.x - low_.x) * per_unit_.x, columns_);
+  }
+
   Vec2 low_{0.0}, per_unit_{0.0};
   std::uint32_t columns_ = 0, rows_ = 0;
   std::pmr::vector<delaunay::TriangleId> triangles_;

@@ -12,8 +12,21 @@ namespace {
 using test::MadeSurface;
 using test::SceneBuilder;
 
+// All at once is one after the other.
+void expect_same_together(const MadeSurface& made, const std::vector<PlanePoint>& asked,
+                          const std::vector<FacetPoint>& told) {
+  std::vector<FacetPoint> found(asked.size());
+  made.surface.locate(asked, found.data());
+  for (std::size_t k = 0; k < asked.size(); ++k) {
+    EXPECT_EQ(found[k].shares, told[k].shares);
+    EXPECT_EQ(found[k].weights, told[k].weights);
+  }
+}
+
 void expect_found(const MadeSurface& made, std::mt19937& random, int points) {
   std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<PlanePoint> asked;
+  std::vector<FacetPoint> told;
   for (int k = 0; k < points; ++k) {
     const auto t = static_cast<std::uint32_t>(random() % made.welded.triangles.size());
     const auto& corners = made.welded.triangles[t].vertices;
@@ -22,7 +35,8 @@ void expect_found(const MadeSurface& made, std::mt19937& random, int points) {
     const Vec3 point = (1 - u - v) * made.welded.positions[corners[0]] + u * made.welded.positions[corners[1]] +
                        v * made.welded.positions[corners[2]];
     const std::uint32_t facet = made.facets.facet_of_triangle[t];
-    const FacetPoint found = made.surface.locate(facet, made.facets.facets[facet].frame.to_plane(point));
+    asked.push_back({facet, made.facets.facets[facet].frame.to_plane(point)});
+    const FacetPoint found = told.emplace_back(made.surface.locate(facet, asked.back().at));
     Vec3 back(0.0);
     for (std::size_t c = 0; c < 3; ++c) {
       EXPECT_EQ(made.surface.shares()[found.shares[c]].facet, facet);
@@ -31,6 +45,7 @@ void expect_found(const MadeSurface& made, std::mt19937& random, int points) {
     }
     EXPECT_LT(glm::distance(back, point), 1e-9);  // weights would be cut off in another triangle
   }
+  expect_same_together(made, asked, told);
 }
 
 TEST(Locate, FindsPointsOnRefinedFacetsWithHoles) {
@@ -53,6 +68,29 @@ TEST(Locate, FindsPointsOnRefinedFacetsWithHoles) {
     made.surface.align_ties(std::vector<double>(made.surface.samples().size(), 1.0), 0);
     expect_found(made, random, 300);
   }
+}
+
+// Single triangles without a mesh, such that cannot be triangulated anew, and larger ones, in any order.
+TEST(Locate, ManyAtOnceOnAllKindsOfFacets) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  SceneBuilder builder(std::pmr::get_default_resource());
+  for (int k = 0; k < 60; ++k) {
+    const double size = k % 3 == 0 ? 2.0 : 0.05;
+    const Vec3 a(3.0 * k, 0, 0), along(size * uniform(random), size * uniform(random), size);
+    const Vec3 across = k % 5 == 0 ? 1e-7 * Vec3(uniform(random), 1, 0) : size * Vec3(1, uniform(random), 0);
+    builder.quad(a, a + across, a + along + across, a + along);
+    builder.triangle(a + Vec3(1, 0, 0), a + Vec3(1, 0, 0) + across, a + Vec3(1, 0, 0) + along);
+  }
+  const MadeSurface made(builder.take(), {Lattice::hexagonal, 0.3, 0, 0.1});
+  std::vector<PlanePoint> asked;
+  std::vector<FacetPoint> told;
+  for (int k = 0; k < 1000; ++k) {
+    const auto facet = static_cast<std::uint32_t>(random() % made.facets.facets.size());
+    asked.push_back({facet, 2.0 * Vec2(uniform(random), uniform(random))});  // beside the facet as well
+    told.push_back(made.surface.locate(facet, asked.back().at));
+  }
+  expect_same_together(made, asked, told);
 }
 
 }  // namespace

@@ -132,17 +132,13 @@ void locate(benchmark::State& state) {
     surface.refine(sites);
   }
   // By area, in an order without any coherence.
-  struct Point {
-    std::uint32_t facet;
-    Vec2 position;
-  };
   std::vector<double> sums;
   for (const Triangle& triangle : given.welded.triangles) {
     const auto corner = [&](std::size_t k) { return given.welded.positions[triangle.vertices[k]]; };
     sums.push_back((sums.empty() ? 0 : sums.back()) +
                    glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0))));
   }
-  std::vector<Point> points;
+  std::vector<PlanePoint> points;
   for (std::uint64_t k = 0; k < 1 << 16; ++k) {
     const double draw = to_unit(hash(k, 0)) * sums.back();
     const auto t = static_cast<std::size_t>(std::lower_bound(sums.begin(), sums.end(), draw) - sums.begin());
@@ -155,13 +151,22 @@ void locate(benchmark::State& state) {
                                  u * given.welded.positions[vertices[1]] + v * given.welded.positions[vertices[2]])});
   }
   std::size_t next = 0;
-  for (auto _ : state) {
-    const Point& point = points[next];
-    next = (next + 1) % points.size();
-    benchmark::DoNotOptimize(surface.locate(point.facet, point.position));
+  const auto together = static_cast<std::size_t>(state.range(1));
+  std::vector<FacetPoint> found(together);
+  while (state.KeepRunningBatch(static_cast<benchmark::IterationCount>(together))) {
+    const std::span some = std::span(points).subspan(next, together);
+    next = (next + together) % points.size();
+    if (together == 1) {
+      benchmark::DoNotOptimize(surface.locate(some[0].facet, some[0].at));
+    } else {
+      surface.locate(some, found.data());
+      benchmark::DoNotOptimize(found.data());
+    }
   }
   state.counters["sites"] = static_cast<double>(surface.sites().size());
 }
-BENCHMARK(locate)->ArgNames({"scene"})->Args({0})->Args({1})->Args({2})->Args({3})->Args({4});
+BENCHMARK(locate)->ArgNames({"scene", "together"})->ArgsProduct({{0, 1, 2, 3, 4}, {1, 16}});
 
 }  // namespace
+
+BENCHMARK_MAIN();
