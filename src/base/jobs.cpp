@@ -5,6 +5,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <exception>
 #include <mutex>
 #include <new>
@@ -81,9 +82,16 @@ void Jobs::run(std::uint32_t count, Task task, void* data) const {
       loop.run(index);
     }
   } else {
+    std::atomic<std::uint32_t> next{0};
     arena_->arena.execute([&] {
       tbb::parallel_for(
-          0u, count, [&](std::uint32_t index) { loop.run(index); }, tbb::simple_partitioner());
+          0u, std::min(count, thread_count_),
+          [&](std::uint32_t) {
+            for (std::uint32_t index = next++; index < count; index = next++) {
+              loop.run(index);
+            }
+          },
+          tbb::simple_partitioner());
     });
   }
   if (loop.exception) {

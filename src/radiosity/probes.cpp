@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "radiosity/facet_ranges.h"
+
 namespace radvor {
 
 namespace {
@@ -62,12 +64,11 @@ class ProbePlacer {
 
 std::pmr::vector<Probe> place_probes(const Surface& surface, double least_area, std::span<const std::uint8_t> fresh,
                                      double lift, Host& host) {
-  constexpr std::size_t k_facets = 16;  // of a task
-  const std::size_t facets = surface.facets().facets.size();
-  std::pmr::vector<std::pmr::vector<Probe>> found((facets + k_facets - 1) / k_facets, &host.memory);
-  host.jobs.for_ranges(facets, k_facets, [&](std::size_t begin, std::size_t end) {
-    ProbePlacer placer(surface, least_area, fresh, lift, found[begin / k_facets]);
-    for (auto facet = static_cast<std::uint32_t>(begin); facet < end; ++facet) {
+  const EvenRanges ranges = ranges_of_facets(surface, host);
+  std::pmr::vector<std::pmr::vector<Probe>> found(ranges.size(), &host.memory);
+  ranges.for_each(host.jobs, [&](std::uint32_t range, std::uint32_t begin, std::uint32_t end) {
+    ProbePlacer placer(surface, least_area, fresh, lift, found[range]);
+    for (std::uint32_t facet = begin; facet < end; ++facet) {
       placer.place_on(facet);
     }
   });

@@ -4,16 +4,17 @@
 #include <array>
 #include <cmath>
 
+#include "radiosity/facet_ranges.h"
+
 namespace radvor {
 
 namespace {
 
-constexpr double k_step = 0.3;          // RMS of a step's linear interpolation, about 1 / sqrt(12)
-constexpr double k_bent = 0.2;          // of how far the edge's difference is from what its ends' gradients say
-constexpr double k_unknown = 0.1;       // of the difference, in facets too small to have gradients that say anything
-constexpr std::size_t k_small = 4;      // triangles
-constexpr double k_local_floor = 0.1;   // of the mean: what is darker counts as this
-constexpr std::uint32_t k_task = 4096;  // triangles
+constexpr double k_step = 0.3;         // RMS of a step's linear interpolation, about 1 / sqrt(12)
+constexpr double k_bent = 0.2;         // of how far the edge's difference is from what its ends' gradients say
+constexpr double k_unknown = 0.1;      // of the difference, in facets too small to have gradients that say anything
+constexpr std::size_t k_small = 4;     // triangles
+constexpr double k_local_floor = 0.1;  // of the mean: what is darker counts as this
 
 double mean(const Color& color) {
   return (color.r + color.g + color.b) / 3;
@@ -130,22 +131,12 @@ class FacetErrors {
 std::pmr::vector<std::uint32_t> plan_refinement(const Surface& surface, const SampledLight& light,
                                                 const RefinementGoal& goal, Host& host) {
   std::pmr::memory_resource* memory = &host.memory;
-  const auto& facets = surface.facets().facets;
-  std::pmr::vector<std::uint32_t> bounds(1, 0u, memory);
-  std::size_t triangles = 0;
-  for (std::uint32_t facet = 0; facet < facets.size(); ++facet) {
-    triangles += surface.triangles(facet).size();
-    if (triangles >= k_task || facet + 1 == facets.size()) {
-      bounds.push_back(facet + 1);
-      triangles = 0;
-    }
-  }
-  const auto tasks = static_cast<std::uint32_t>(bounds.size() - 1);
-  std::pmr::vector<std::pmr::vector<EdgeError>> found(tasks, memory);
-  host.jobs.for_each(tasks, [&](std::uint32_t task) {
+  const EvenRanges ranges = ranges_of_facets(surface, host);
+  std::pmr::vector<std::pmr::vector<EdgeError>> found(ranges.size(), memory);
+  ranges.for_each(host.jobs, [&](std::uint32_t range, std::uint32_t begin, std::uint32_t end) {
     FacetErrors errors(surface, light, goal, memory);
-    for (std::uint32_t facet = bounds[task]; facet < bounds[task + 1]; ++facet) {
-      errors.find(facet, found[task]);
+    for (std::uint32_t facet = begin; facet < end; ++facet) {
+      errors.find(facet, found[range]);
     }
   });
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "radiosity/facet_ranges.h"
+
 namespace radvor {
 
 namespace {
@@ -69,8 +71,9 @@ void mark_divided(std::span<const std::uint32_t> samples_now, const Surface& sur
     }
   }
   // Shares belong to one facet, both sides of them: tasks do not meet.
-  host.jobs.for_ranges(surface.facets().facets.size(), 16, [&](std::size_t begin, std::size_t end) {
-    for (auto facet = static_cast<std::uint32_t>(begin); facet < end; ++facet) {
+  const EvenRanges ranges = ranges_of_facets(surface, host);
+  ranges.for_each(host.jobs, [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t facet = begin; facet < end; ++facet) {
       mark_divided(facet, is_new, surface, divided);
     }
   });

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "base/even_ranges.h"
 #include "surface/facet_ground.h"
 #include "surface/given_sites.h"
 #include "surface/receiver_point.h"
@@ -16,24 +17,6 @@
 namespace radvor {
 
 namespace {
-
-constexpr std::size_t k_facets = 16;  // of a task that does little to each
-
-// Ranges of things of about equal weight: what one task does.
-template <class Weight>
-std::pmr::vector<std::uint32_t> even_ranges(std::uint32_t count, double weight, Weight&& weight_of,
-                                            std::pmr::memory_resource* memory) {
-  std::pmr::vector<std::uint32_t> bounds(1, 0u, memory);
-  double sum = 0;
-  for (std::uint32_t k = 0; k < count; ++k) {
-    sum += weight_of(k);
-    if (sum >= weight || k + 1 == count) {
-      bounds.push_back(k + 1);
-      sum = 0;
-    }
-  }
-  return bounds;
-}
 
 class SurfaceMaker {
  public:
@@ -147,8 +130,8 @@ class SurfaceMaker {
     // A facet's own sites, and a constant for the rest.
     const double spacing = parts_.borders.spacing();
     constexpr double k_task = 1000;
-    const auto bounds = even_ranges(
-        static_cast<std::uint32_t>(meshed.size()), k_task,
+    const EvenRanges ranges(
+        meshed.size(), k_task,
         [&](std::uint32_t k) {
           const FacetInput input = input_of(meshed[k]);
           const Facet& facet = input.facet();
@@ -156,8 +139,8 @@ class SurfaceMaker {
                  (input.inner ? static_cast<double>(input.inner->size()) : facet.area / (spacing * spacing));
         },
         parts_.memory);
-    parts_.host.jobs.for_each(static_cast<std::uint32_t>(bounds.size() - 1), [&](std::uint32_t task) {
-      for (std::uint32_t k = bounds[task]; k < bounds[task + 1]; ++k) {
+    ranges.for_each(parts_.host.jobs, [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
+      for (std::uint32_t k = begin; k < end; ++k) {
         const std::uint32_t mesh = parts_.records[facets_[meshed[k]]].mesh;
         parts_.meshes[mesh].emplace(input_of(meshed[k]), parts_.drafts[mesh]);
       }
@@ -183,8 +166,8 @@ class SurfaceMaker {
       record.first_share = shares;
       shares += record.two_sided ? 2 * record.share_count : record.share_count;
     }
-    parts_.host.jobs.for_ranges(before.size(), k_facets, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t facet = begin; facet < end; ++facet) {
+    parts_.ranges_of_facets().for_each(parts_.host.jobs, [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
+      for (std::uint32_t facet = begin; facet < end; ++facet) {
         const FacetRecord& record = parts_.records[facet];
         if (record.first_share != k_none && record.mesh != k_none) {
           parts_.meshes[record.mesh]->number_shares(record.first_share - before[facet].first_share);
@@ -261,9 +244,9 @@ class SurfaceMaker {
 
   // What has not changed, under its new numbers.
   void copy_shares(const SurfaceBefore& before) {
-    parts_.host.jobs.for_ranges(parts_.records.size(), k_facets, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t facet = begin; facet < end; ++facet) {
-        if (parts_.records[facet].first_share != k_none && !before.is_changed(static_cast<std::uint32_t>(facet))) {
+    parts_.ranges_of_facets().for_each(parts_.host.jobs, [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
+      for (std::uint32_t facet = begin; facet < end; ++facet) {
+        if (parts_.records[facet].first_share != k_none && !before.is_changed(facet)) {
           copy_shares(before, parts_.records[facet], before.records[facet].first_share);
         }
       }
@@ -291,13 +274,13 @@ class SurfaceMaker {
   // Of the facets built now.
   void fill_shares() {
     constexpr double k_task = 2000;
-    const auto bounds = even_ranges(
-        static_cast<std::uint32_t>(facets_.size()), k_task,
+    const EvenRanges ranges(
+        facets_.size(), k_task,
         [&](std::uint32_t k) { return static_cast<double>(parts_.records[facets_[k]].share_count); }, parts_.memory);
     std::atomic<std::uint32_t> clamped{0};
-    parts_.host.jobs.for_each(static_cast<std::uint32_t>(bounds.size() - 1), [&](std::uint32_t task) {
+    ranges.for_each(parts_.host.jobs, [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
       std::uint32_t clamped_here = 0;
-      for (std::uint32_t k = bounds[task]; k < bounds[task + 1]; ++k) {
+      for (std::uint32_t k = begin; k < end; ++k) {
         clamped_here += parts_.records[facets_[k]].mesh == k_none ? fill_small(facets_[k]) : fill_meshed(facets_[k]);
       }
       clamped += clamped_here;

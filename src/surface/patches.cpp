@@ -46,10 +46,9 @@ class PatchMaker {
 
   // Numbered from 0 in each facet.
   void find_own() {
-    constexpr std::size_t k_facets = 16;  // of a task
-    parts_.host.jobs.for_ranges(parts_.records.size(), k_facets, [&](std::size_t begin, std::size_t end) {
+    parts_.ranges_of_facets().for_each(parts_.host.jobs, [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
       std::pmr::vector<std::uint32_t> patch_of(parts_.memory);
-      for (auto facet = static_cast<std::uint32_t>(begin); facet < end; ++facet) {
+      for (std::uint32_t facet = begin; facet < end; ++facet) {
         const FacetRecord& record = parts_.records[facet];
         if (record.first_share != k_none) {
           patch_of.resize(record.share_count);

@@ -21,7 +21,7 @@ SurfaceBefore::SurfaceBefore(SurfaceParts& parts, std::span<const std::uint32_t>
 
 namespace {
 
-constexpr std::size_t k_facets = 16, k_samples = 1024;  // of a task
+constexpr std::size_t k_samples = 1024;  // of a task
 
 class OriginFinder {
  public:
@@ -30,8 +30,8 @@ class OriginFinder {
 
   // Shares that were there before, on unchanged facets and of old sites on changed ones.
   void match_shares(std::span<const std::uint32_t> changed) {
-    parts_.host.jobs.for_ranges(parts_.records.size(), k_facets, [&](std::size_t begin, std::size_t end) {
-      for (auto facet = static_cast<std::uint32_t>(begin); facet < end; ++facet) {
+    parts_.ranges_of_facets().for_each(parts_.host.jobs, [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
+      for (std::uint32_t facet = begin; facet < end; ++facet) {
         const FacetRecord& record = parts_.records[facet];
         if (record.first_share != k_none && !before_.is_changed(facet)) {
           const auto first = old_share_.begin() + record.first_share;
@@ -40,17 +40,13 @@ class OriginFinder {
         }
       }
     });
-    parts_.host.jobs.for_each(static_cast<std::uint32_t>(changed.size()), [&](std::uint32_t k) {
-      const std::uint32_t facet = changed[k];
-      const FacetMesh* mesh = triangulation(parts_.records[facet].mesh);
-      const FacetMesh* old_mesh = triangulation(before_.records[facet].mesh);
-      if (mesh && old_mesh) {
-        match_vertices(*mesh, *old_mesh);
-      } else {
-        match_by_site(facet);
-      }
-      if (parts_.records[facet].two_sided) {
-        match_backs(facet);
+    constexpr double k_task = 1024;
+    const EvenRanges ranges(
+        changed.size(), k_task, [&](std::uint32_t k) { return 1.0 + parts_.records[changed[k]].share_count; },
+        parts_.memory);
+    ranges.for_each(parts_.host.jobs, [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
+      for (std::uint32_t k = begin; k < end; ++k) {
+        match_shares(changed[k]);
       }
     });
   }
@@ -66,6 +62,19 @@ class OriginFinder {
   }
 
  private:
+  void match_shares(std::uint32_t facet) {
+    const FacetMesh* mesh = triangulation(parts_.records[facet].mesh);
+    const FacetMesh* old_mesh = triangulation(before_.records[facet].mesh);
+    if (mesh && old_mesh) {
+      match_vertices(*mesh, *old_mesh);
+    } else {
+      match_by_site(facet);
+    }
+    if (parts_.records[facet].two_sided) {
+      match_backs(facet);
+    }
+  }
+
   const FacetMesh* triangulation(std::uint32_t mesh) const {
     return mesh == k_none || parts_.meshes[mesh]->degenerate() ? nullptr : &*parts_.meshes[mesh];
   }

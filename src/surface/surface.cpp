@@ -81,9 +81,16 @@ Ties Surface::align_ties(std::span<const double> value_of, double tolerance) {
     values.push_back(value_of[share.sample]);
   }
   std::pmr::vector<Ties> of_mesh(state_->meshes.size(), memory_);
-  state_->host.jobs.for_each(static_cast<std::uint32_t>(of_mesh.size()), [&](std::uint32_t k) {
-    if (state_->meshes[k] && !state_->meshes[k]->degenerate()) {
-      of_mesh[k] = state_->meshes[k]->align_ties(values, tolerance, memory_);
+  constexpr double k_task = 512;
+  const auto weight = [&](std::uint32_t k) {
+    return 1.0 + static_cast<double>(state_->meshes[k] ? state_->meshes[k]->triangles().size() : 0);
+  };
+  const EvenRanges ranges(of_mesh.size(), k_task, weight, memory_);
+  ranges.for_each(state_->host.jobs, [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t k = begin; k < end; ++k) {
+      if (state_->meshes[k] && !state_->meshes[k]->degenerate()) {
+        of_mesh[k] = state_->meshes[k]->align_ties(values, tolerance, memory_);
+      }
     }
   });
   Ties ties;

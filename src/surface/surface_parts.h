@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/even_ranges.h"
 #include "base/raw_vector.h"
 #include "surface/border_sites.h"
 #include "surface/facet_draft.h"
@@ -89,6 +90,13 @@ struct SurfaceParts {
     return record.mesh == k_none ? std::span<const ShareTriangle>(small_triangles).subspan(facet, 1)
                                  : meshes[record.mesh]->triangles();
   }
+  /// All facets, for tasks that do little to each of their shares.
+  EvenRanges ranges_of_facets() const {
+    constexpr double k_task = 4096;
+    const auto weight = [&](std::uint32_t facet) { return 1.0 + records[facet].share_count; };
+    return {records.size(), k_task, weight, memory};
+  }
+
   /// NULL where each triangle's corners are shares of their own, with cells in closed form.
   const FacetMesh* triangulated(std::uint32_t facet) const {
     const FacetRecord& record = records[facet];

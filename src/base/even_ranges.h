@@ -1,0 +1,54 @@
+// Ranges of things of different weight (facets), each about as heavy as a task should be: the heaviest run first, so
+// that no thread begins with the largest facet when the others are done.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <memory_resource>
+#include <numeric>
+#include <vector>
+
+#include "base/jobs.h"
+
+namespace radvor {
+
+class EvenRanges {
+ public:
+  /// Of 0 to count. weight_of(k) >= 0; a range ends with the thing that brings it to `weight` or beyond.
+  template <class WeightOf>
+  EvenRanges(std::size_t count, double weight, WeightOf&& weight_of, std::pmr::memory_resource* memory)
+      : ranges_(memory) {
+    Range range{0, 0, 0};
+    for (std::uint32_t k = 0; k < count; ++k) {
+      range.weight += weight_of(k);
+      range.end = k + 1;
+      if (range.weight >= weight || range.end == count) {
+        ranges_.push_back(range);
+        range = {range.end, range.end, 0};
+      }
+    }
+  }
+
+  std::uint32_t size() const { return static_cast<std::uint32_t>(ranges_.size()); }
+
+  /// function(range, begin, end) for each, by its number from the first on.
+  template <class Function>
+  void for_each(const Jobs& jobs, Function&& function) const {
+    std::pmr::vector<std::uint32_t> order(ranges_.size(), ranges_.get_allocator());
+    std::iota(order.begin(), order.end(), 0u);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return ranges_[a].weight != ranges_[b].weight ? ranges_[a].weight > ranges_[b].weight : a < b;
+    });
+    jobs.for_each(size(), [&](std::uint32_t k) { function(order[k], ranges_[order[k]].begin, ranges_[order[k]].end); });
+  }
+
+ private:
+  struct Range {
+    std::uint32_t begin, end;
+    double weight;
+  };
+
+  std::pmr::vector<Range> ranges_;
+};
+
+}  // namespace radvor
