@@ -76,7 +76,8 @@ radvor_result radvor_context_create(const radvor_context_desc* desc, radvor_cont
     }
     require(context, "context");
     check(known);
-    // The context itself lies in the host's memory, apart from the one it counts.
+    // The context itself lies in the host's memory, apart from the one it counts; not in regions of the lender's.
+    static_assert(sizeof(radvor_context) < Regions::k_least);
     HostMemory lender(known.acquire, known.release, known.user);
     *context = std::pmr::polymorphic_allocator<>(&lender).new_object<radvor_context>(known);
     return RADVOR_OK;

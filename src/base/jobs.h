@@ -24,7 +24,8 @@ class Jobs {
   std::uint32_t thread_count() const noexcept { return thread_count_; }
   bool lent_by_host() const noexcept { return host_ != nullptr; }
 
-  /// Calls function(index) once for each index < count, in any order, and returns when all have run. Every task
+  /// Calls function(index) once for each index < count, begun in that order by radvor's own threads, in any by the
+  /// host's, and returns when all have run. Every task
   /// runs with round-to-nearest and denormals flushed. What tasks throw reaches the caller: that of the lowest
   /// index, so that errors too are the same for any number of threads.
   template <class Function>

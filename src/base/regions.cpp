@@ -1,6 +1,7 @@
 #include "base/regions.h"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <new>
 #include <utility>
@@ -15,7 +16,10 @@ namespace {
 
 constexpr std::size_t k_large_page = std::size_t{2} << 20;
 constexpr std::size_t k_region = std::size_t{64} << 20;  // bytes, unless one block is larger
-constexpr std::size_t k_most = std::size_t{1} << 42;     // bytes of a block
+
+// Bytes of a block: page numbers have 32 bits, and there is no more memory.
+constexpr std::size_t k_most =
+    std::min<std::uint64_t>(std::uint64_t{1} << 42, std::numeric_limits<std::size_t>::max() / 4);
 
 std::byte* take_from_system([[maybe_unused]] std::size_t bytes) noexcept {
 #ifdef __linux__
@@ -66,6 +70,7 @@ constexpr std::size_t most_holes(std::size_t pages) {
 struct Regions::Region {
   Region* next;
   std::uint32_t page_count, hole_count, used;  // the latter in pages, this head's included
+  std::uint32_t widest;                        // no hole has more pages
 
   static std::size_t head(std::size_t pages) { return pages_of(sizeof(Region) + most_holes(pages) * sizeof(Hole)); }
 
@@ -93,16 +98,20 @@ struct Regions::Region {
     const bool joins_before = after != holes() && (after - 1)->first + (after - 1)->count == first;
     if (joins_before) {
       (after - 1)->count += pages + (joins_after ? after->count : 0);
+      widest = std::max(widest, (after - 1)->count);
       if (joins_after) {
         erase(after);
       }
-    } else if (joins_after) {
+      return;
+    }
+    if (joins_after) {
       *after = {first, after->count + pages};
     } else {
       std::copy_backward(after, end, end + 1);
       *after = {first, pages};
       ++hole_count;
     }
+    widest = std::max(widest, after->count);
   }
 
  private:
@@ -132,13 +141,17 @@ std::size_t Regions::bytes() const noexcept {
 Regions::Region* Regions::add(std::uint32_t pages) noexcept {
   const std::size_t with_head = (pages + Region::head(2 * std::size_t{pages})) * k_page;
   const std::size_t bytes = std::max(k_region, (with_head + k_large_page - 1) / k_large_page * k_large_page);
-  std::byte* const begin = take_from_system(bytes);
+  std::byte* begin = take_from_system(bytes);
+  if (begin == nullptr) {
+    trim(0);
+    begin = take_from_system(bytes);
+  }
   if (begin == nullptr) {
     return nullptr;
   }
   const auto count = static_cast<std::uint32_t>(bytes / k_page);
   const auto head = static_cast<std::uint32_t>(Region::head(count));
-  auto* const region = ::new (static_cast<void*>(begin)) Region{first_, count, 1, head};
+  auto* const region = ::new (static_cast<void*>(begin)) Region{first_, count, 1, head, count - head};
   std::construct_at(region->holes(), Hole{head, count - head});
   first_ = region;
   return region;
@@ -154,7 +167,12 @@ void* Regions::allocate(std::size_t bytes) noexcept {
   Region* best = nullptr;
   Hole* best_hole = nullptr;
   for (Region* region = first_; region != nullptr; region = region->next) {
+    if (region->widest < pages) {
+      continue;
+    }
+    region->widest = 0;
     for (Hole* hole = region->holes(); hole != region->holes() + region->hole_count; ++hole) {
+      region->widest = std::max(region->widest, hole->count);
       if (hole->count >= pages && (best_hole == nullptr || hole->count < best_hole->count)) {
         best = region;
         best_hole = hole;
@@ -176,7 +194,11 @@ bool Regions::deallocate(void* block, std::size_t bytes) noexcept {
       const std::size_t page = static_cast<std::size_t>(begin - region->begin()) / k_page;
       region->give_back(static_cast<std::uint32_t>(page), static_cast<std::uint32_t>(pages_of_block(bytes)));
       if (region->is_empty()) {
-        trim();
+        std::size_t used = 0;
+        for (const Region* each = first_; each != nullptr; each = each->next) {
+          used += each->is_empty() ? 0 : std::size_t{each->used} * k_page;
+        }
+        trim(std::max(used, k_region));
       }
       return true;
     }
@@ -184,25 +206,22 @@ bool Regions::deallocate(void* block, std::size_t bytes) noexcept {
   return false;
 }
 
-// Once nothing is left in any of them: one stays for what comes next.
-void Regions::trim() noexcept {
-  for (const Region* region = first_; region != nullptr; region = region->next) {
-    if (!region->is_empty()) {
-      return;
-    }
-  }
-  Region* kept = nullptr;
-  while (first_ != nullptr) {
-    Region* const region = std::exchange(first_, first_->next);
+// What is kept for later is no more than so many bytes of empty regions.
+void Regions::trim(std::size_t most_idle) noexcept {
+  std::size_t idle = 0;
+  for (Region** at = &first_; *at != nullptr;) {
+    Region* const region = *at;
     const std::size_t bytes = std::size_t{region->page_count} * k_page;
-    if (kept == nullptr && bytes == k_region) {
-      kept = region;
-      kept->next = nullptr;
+    if (!region->is_empty()) {
+      at = &region->next;
+    } else if (idle + bytes <= most_idle) {
+      idle += bytes;
+      at = &region->next;
     } else {
+      *at = region->next;
       give_to_system(region, bytes);
     }
   }
-  first_ = kept;
 }
 
 }  // namespace radvor

@@ -1,6 +1,7 @@
 // Large blocks out of regions that are taken from the system once. A bake's arrays are made anew with every refinement:
 // memory that comes fresh each time is paid for page by page, more than what is written there. So what is let go is
-// kept for what is asked next, in large pages where the system has them.
+// kept for what is asked next, in large pages where the system has them; of regions with nothing in them no more than
+// of others, and one.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +34,7 @@ class Regions {
   struct Region;
 
   Region* add(std::uint32_t pages) noexcept;
-  void trim() noexcept;
+  void trim(std::size_t most_idle) noexcept;
 
   mutable std::mutex mutex_;
   Region* first_ = nullptr;

@@ -7,7 +7,7 @@
 
 namespace radvor {
 
-inline EvenRanges ranges_of_facets(const Surface& surface, Host& host) {
+inline EvenRanges ranges_by_triangles(const Surface& surface, Host& host) {
   constexpr double k_task = 2048;
   const auto weight = [&](std::uint32_t facet) { return 1.0 + static_cast<double>(surface.triangles(facet).size()); };
   return {surface.facets().facets.size(), k_task, weight, &host.memory};

@@ -13,9 +13,7 @@ namespace radvor {
 
 namespace {
 
-// The corner of a hit's triangle that a ray's link stands for: drawn by the weights, with the golden ratio's multiples,
-// which are spread evenly whatever their number. Corners are taken from the lowest share on, since their order in a
-// triangle may turn when its facet is triangulated anew, and the ray is to draw the same.
+// Asks memory ahead for a facet: which ones a packet meets is known before what they are.
 void fetch(const Facet& facet) {
   constexpr std::size_t k_line = 64;
   for (std::size_t at = 0; at < sizeof(Facet); at += k_line) {
@@ -23,6 +21,9 @@ void fetch(const Facet& facet) {
   }
 }
 
+// The corner of a hit's triangle that a ray's link stands for: drawn by the weights, with the golden ratio's multiples,
+// which are spread evenly whatever their number. Corners are taken from the lowest share on, since their order in a
+// triangle may turn when its facet is triangulated anew, and the ray is to draw the same.
 class Draw {
  public:
   explicit Draw(std::uint64_t seed) : first_(to_unit(mix(seed + 1))) {}

@@ -64,7 +64,7 @@ class ProbePlacer {
 
 std::pmr::vector<Probe> place_probes(const Surface& surface, double least_area, std::span<const std::uint8_t> fresh,
                                      double lift, Host& host) {
-  const EvenRanges ranges = ranges_of_facets(surface, host);
+  const EvenRanges ranges = ranges_by_triangles(surface, host);
   std::pmr::vector<std::pmr::vector<Probe>> found(ranges.size(), &host.memory);
   ranges.for_each(host.jobs, [&](std::uint32_t range, std::uint32_t begin, std::uint32_t end) {
     ProbePlacer placer(surface, least_area, fresh, lift, found[range]);

@@ -131,7 +131,7 @@ class FacetErrors {
 std::pmr::vector<std::uint32_t> plan_refinement(const Surface& surface, const SampledLight& light,
                                                 const RefinementGoal& goal, Host& host) {
   std::pmr::memory_resource* memory = &host.memory;
-  const EvenRanges ranges = ranges_of_facets(surface, host);
+  const EvenRanges ranges = ranges_by_triangles(surface, host);
   std::pmr::vector<std::pmr::vector<EdgeError>> found(ranges.size(), memory);
   ranges.for_each(host.jobs, [&](std::uint32_t range, std::uint32_t begin, std::uint32_t end) {
     FacetErrors errors(surface, light, goal, memory);

@@ -71,7 +71,7 @@ void mark_divided(std::span<const std::uint32_t> samples_now, const Surface& sur
     }
   }
   // Shares belong to one facet, both sides of them: tasks do not meet.
-  const EvenRanges ranges = ranges_of_facets(surface, host);
+  const EvenRanges ranges = ranges_by_triangles(surface, host);
   ranges.for_each(host.jobs, [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t facet = begin; facet < end; ++facet) {
       mark_divided(facet, is_new, surface, divided);

@@ -6,10 +6,10 @@
 //   hemispheres -> first bounce -> refinement, remake -> probes, with direct before, again while they raise sites;
 //   fit -> account -> standouts -> bounces -> finish
 //
-// Light of sources that have a place or a direction is exact at every sample, and the mesh follows it, level by level.
-// Then samples look around for sky and the other surfaces. What comes from all around is smooth but near other
-// surfaces: finer samples take it from the coarser ones that they lie between, unless something is near. The mesh
-// follows again.
+// Light of sources that have a place or a direction is exact at every sample, and the mesh follows it, level by level,
+// or two levels where few sites are left. Then samples look around for sky and the other surfaces. What comes from all
+// around is smooth but near other surfaces: finer samples take it from the coarser ones that they lie between, unless
+// something is near. The mesh follows again.
 #pragma once
 
 #include <algorithm>

@@ -81,9 +81,10 @@ class FacetMesh {
 
   /// For many locate_roughly at once: memory is asked ahead for what each reads first, step by step.
   void fetch() const {
-    __builtin_prefetch(&delaunay_);
-    __builtin_prefetch(&index_of_triangle_);
-    __builtin_prefetch(&raster_);
+    constexpr std::size_t k_line = 64;
+    for (std::size_t at = 0; at < sizeof(FacetMesh); at += k_line) {
+      __builtin_prefetch(reinterpret_cast<const char*>(this) + at);
+    }
   }
   void fetch_start(const Vec2& point) const { raster_.fetch(point); }
   delaunay::TriangleId fetch_triangle(const Vec2& point) const {

@@ -30,7 +30,7 @@ class OriginFinder {
 
   // Shares that were there before, on unchanged facets and of old sites on changed ones.
   void match_shares(std::span<const std::uint32_t> changed) {
-    parts_.ranges_of_facets().for_each(parts_.host.jobs, [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
+    parts_.ranges_by_shares().for_each(parts_.host.jobs, [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
       for (std::uint32_t facet = begin; facet < end; ++facet) {
         const FacetRecord& record = parts_.records[facet];
         if (record.first_share != k_none && !before_.is_changed(facet)) {

@@ -141,7 +141,7 @@ class Surface {
                                         std::span<const WantedSite> wanted = {});
 
   /// The first part of refine(): what it does to sites shows at once, in sites() and level_of(); all else is as it was
-  /// until the next refine(), be it one of no sites. For those who know what to raise without light.
+  /// until the next refine(), be it one of no sites. For those who know what to raise without light, or to rise twice.
   void raise(std::span<const std::uint32_t> sites, std::uint32_t max_sites = 0);
 
   /// How often the surroundings of a site were refined: at least its own level, at most max_level(). Levels of sites

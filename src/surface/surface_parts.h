@@ -91,7 +91,7 @@ struct SurfaceParts {
                                  : meshes[record.mesh]->triangles();
   }
   /// All facets, for tasks that do little to each of their shares.
-  EvenRanges ranges_of_facets() const {
+  EvenRanges ranges_by_shares() const {
     constexpr double k_task = 4096;
     const auto weight = [&](std::uint32_t facet) { return 1.0 + records[facet].share_count; };
     return {records.size(), k_task, weight, memory};

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <random>
 #include <thread>
@@ -82,7 +83,7 @@ class RegionsTest : public ::testing::Test {
 
 TEST_F(RegionsTest, BlocksLieApartAndKeepWhatIsWritten) {
   std::vector<Block> blocks;
-  stress(1, 4000, blocks);
+  stress(1, 1000, blocks);
   std::sort(blocks.begin(), blocks.end(), [](const Block& a, const Block& b) { return a.memory < b.memory; });
   for (std::size_t k = 0; k + 1 < blocks.size(); ++k) {
     EXPECT_LE(blocks[k].memory + blocks[k].bytes, blocks[k + 1].memory);
@@ -114,19 +115,63 @@ TEST_F(RegionsTest, AreUsedAgain) {
   EXPECT_EQ(regions.bytes(), one);
 }
 
-// Every other one of the smallest blocks given back: as many holes as there may be.
+// One page between the smallest blocks: as many holes as there may be.
 TEST_F(RegionsTest, TheMostHoles) {
+  const std::size_t wider = Regions::k_least + Regions::k_page;
+  std::vector<void*> blocks = {regions.allocate(wider)}, rest;
+  // Fills the one region with blocks of a size.
+  const auto fill = [&](std::size_t bytes, std::vector<void*>& into) {
+    for (;;) {
+      auto* const block = static_cast<std::byte*>(regions.allocate(bytes));
+      if (block < blocks[0] || block >= static_cast<std::byte*>(blocks[0]) + one) {
+        ASSERT_TRUE(regions.deallocate(block, bytes));
+        return;
+      }
+      into.push_back(block);
+    }
+  };
+  fill(wider, blocks);
+  fill(Regions::k_least, rest);
+  std::sort(blocks.begin(), blocks.end(), std::greater<>());
+  for (void* const block : blocks) {  // from the last on, so that no hole joins the one before
+    ASSERT_TRUE(regions.deallocate(block, wider));
+    void* const smaller = regions.allocate(Regions::k_least);
+    ASSERT_EQ(smaller, block);
+    std::memset(smaller, 1, Regions::k_least);
+  }
+  // All of them are known: the last blocks and what lies between are one hole once they are back.
+  EXPECT_TRUE(regions.deallocate(blocks[0], Regions::k_least));
+  EXPECT_TRUE(regions.deallocate(blocks[1], Regions::k_least));
+  blocks.erase(blocks.begin());
+  constexpr std::size_t k_two = 2 * Regions::k_least + Regions::k_page;
+  void* const two = regions.allocate(k_two);
+  EXPECT_EQ(two, static_cast<std::byte*>(blocks[0]) - Regions::k_page);  // with the hole before them
+  EXPECT_TRUE(regions.deallocate(two, k_two));
+  blocks.erase(blocks.begin());
+  for (void* const block : blocks) {
+    EXPECT_TRUE(regions.deallocate(block, Regions::k_least));
+  }
+  for (void* const block : rest) {
+    EXPECT_TRUE(regions.deallocate(block, Regions::k_least));
+  }
+  EXPECT_LE(regions.bytes(), 2 * one);
+}
+
+// As many bytes of empty regions as of others may stay, and one region.
+TEST_F(RegionsTest, GoBackToTheSystemThoughSomethingIsLeft) {
+  constexpr std::size_t k_left = std::size_t{1} << 20;
+  void* const left = regions.allocate(k_left);
   std::vector<void*> blocks;
-  for (std::size_t k = 0; k + 1 < one / Regions::k_least; ++k) {
-    blocks.push_back(regions.allocate(Regions::k_least));
+  const std::size_t most = one - one / 1024;
+  for (int k = 0; k < 10; ++k) {
+    blocks.push_back(regions.allocate(most));
   }
-  EXPECT_EQ(regions.bytes(), one);
-  for (std::size_t k = 0; k < blocks.size(); k += 2) {
-    EXPECT_TRUE(regions.deallocate(blocks[k], Regions::k_least));
+  EXPECT_EQ(regions.bytes(), 11 * one);
+  for (void* const block : blocks) {
+    EXPECT_TRUE(regions.deallocate(block, most));
   }
-  for (std::size_t k = 1; k < blocks.size(); k += 2) {
-    EXPECT_TRUE(regions.deallocate(blocks[k], Regions::k_least));
-  }
+  EXPECT_LE(regions.bytes(), 2 * one);
+  EXPECT_TRUE(regions.deallocate(left, k_left));
   EXPECT_EQ(regions.bytes(), one);
 }
 

@@ -219,5 +219,56 @@ TEST(Refinement, ASmallShadowIsFoundFromTheSource) {
   }
 }
 
+// A spot's small disk of light on a floor of some twenty thousand samples: so few sites rise that they do so twice.
+Scene floor_under_a_spot() {
+  SceneBuilder builder;
+  const std::uint32_t black = builder.material(Color(0.0));
+  builder.quad({-4, -4, 0}, {4, -4, 0}, {4, 4, 0}, {-4, 4, 0}, black);
+  Light spot;
+  spot.type = LightType::spot;
+  spot.position = {0, 0, 1};
+  spot.direction = {0, 0, -1};
+  spot.color = Color(1.0);
+  spot.outer_angle = 0.03f;
+  spot.inner_angle = 0.02f;
+  builder.scene.lights = {spot};
+  return builder.take();
+}
+
+TEST(Slices, FewSitesThatRiseTwiceEndTheSame) {
+  for (const std::uint32_t most : {0u, 21'500u}) {
+    BakeOptions options = refining(0.1, 0.06);
+    options.spacing.max_sites = most;
+    TestBake whole(floor_under_a_spot(), options, 1), sliced(floor_under_a_spot(), options, 3);
+    ASSERT_EQ(whole.run(), BakeStatus::converged);
+    ASSERT_EQ(sliced.run(1e-4), BakeStatus::converged);
+    const Surface &surface = (*whole).surface(), &other = (*sliced).surface();
+    ASSERT_EQ(surface.sites().size(), other.sites().size());
+    ASSERT_EQ(surface.samples().size(), other.samples().size());
+    for (std::size_t i = 0; i < surface.samples().size(); ++i) {
+      EXPECT_EQ((*whole).direct()[i], (*sliced).direct()[i]);
+    }
+    std::size_t finest = 0;
+    for (std::uint32_t site = 0; site < surface.sites().size(); ++site) {
+      EXPECT_EQ(surface.sites()[site].position, other.sites()[site].position);
+      finest += surface.level_of(site) == surface.max_level();
+    }
+    if (most == 0) {
+      EXPECT_GT(finest, 20u);
+    } else {
+      EXPECT_LE(surface.sites().size(), most);
+    }
+    // Neighbours' levels differ by one at most, however many rise at once.
+    for (std::uint32_t facet = 0; facet < (*whole).facets().facets.size(); ++facet) {
+      for (const ShareTriangle& triangle : surface.triangles(facet)) {
+        const auto level = [&](std::size_t k) {
+          return static_cast<int>(surface.level_of(surface.samples()[surface.shares()[triangle[k]].sample].site));
+        };
+        EXPECT_LE(std::max({level(0), level(1), level(2)}), std::min({level(0), level(1), level(2)}) + 1);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace radvor
