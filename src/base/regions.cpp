@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t k_large_page = std::size_t{2} << 20;
 constexpr std::size_t k_region = std::size_t{64} << 20;  // bytes, unless one block is larger
+constexpr std::size_t k_idle = 8;                        // of what is in use, this part may lie idle beside it
 
 // Bytes of a block: page numbers have 32 bits, and there is no more memory.
 constexpr std::size_t k_most =
@@ -198,7 +199,7 @@ bool Regions::deallocate(void* block, std::size_t bytes) noexcept {
         for (const Region* each = first_; each != nullptr; each = each->next) {
           used += each->is_empty() ? 0 : std::size_t{each->used} * k_page;
         }
-        trim(std::max(used, k_region));
+        trim(std::max(used / k_idle, k_region));
       }
       return true;
     }

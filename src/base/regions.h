@@ -1,7 +1,7 @@
 // Large blocks out of regions that are taken from the system once. A bake's arrays are made anew with every refinement:
 // memory that comes fresh each time is paid for page by page, more than what is written there. So what is let go is
 // kept for what is asked next, in large pages where the system has them; of regions with nothing in them no more than
-// of others, and one.
+// an eighth of what the others hold, or one.
 #pragma once
 
 #include <cstddef>

@@ -157,7 +157,7 @@ TEST_F(RegionsTest, TheMostHoles) {
   EXPECT_LE(regions.bytes(), 2 * one);
 }
 
-// As many bytes of empty regions as of others may stay, and one region.
+// An eighth of what is in use may lie idle, or one region.
 TEST_F(RegionsTest, GoBackToTheSystemThoughSomethingIsLeft) {
   constexpr std::size_t k_left = std::size_t{1} << 20;
   void* const left = regions.allocate(k_left);
