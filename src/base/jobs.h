@@ -25,9 +25,8 @@ class Jobs {
   bool lent_by_host() const noexcept { return host_ != nullptr; }
 
   /// Calls function(index) once for each index < count, begun in that order by radvor's own threads, in any by the
-  /// host's, and returns when all have run. Every task
-  /// runs with round-to-nearest and denormals flushed. What tasks throw reaches the caller: that of the lowest
-  /// index, so that errors too are the same for any number of threads.
+  /// host's, and returns when all have run. Every task runs with round-to-nearest and denormals flushed. What tasks
+  /// throw reaches the caller: that of the lowest index, so that errors too are the same for any number of threads.
   template <class Function>
   void for_each(std::uint32_t count, Function&& function) const {
     using Plain = std::remove_reference_t<Function>;

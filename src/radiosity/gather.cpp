@@ -7,19 +7,12 @@
 #include <limits>
 #include <optional>
 
+#include "base/prefetch.h"
 #include "radiosity/hemisphere.h"
 
 namespace radvor {
 
 namespace {
-
-// Asks memory ahead for a facet: which ones a packet meets is known before what they are.
-void fetch(const Facet& facet) {
-  constexpr std::size_t k_line = 64;
-  for (std::size_t at = 0; at < sizeof(Facet); at += k_line) {
-    __builtin_prefetch(reinterpret_cast<const char*>(&facet) + at);
-  }
-}
 
 // The corner of a hit's triangle that a ray's link stands for: drawn by the weights, with the golden ratio's multiples,
 // which are spread evenly whatever their number. Corners are taken from the lowest share on, since their order in a
@@ -90,7 +83,7 @@ Outlook Gather::look(const Receiver& receiver, std::uint32_t ray_count, std::uin
     for (std::uint32_t k = 0; k < count; ++k) {
       if (hits[k].triangle != FirstHit::k_miss) {
         facets[k] = facets_.facet_of_triangle[occluders_[hits[k].triangle]];
-        fetch(facets_.facets[facets[k]]);
+        prefetch(facets_.facets[facets[k]]);
       }
     }
     std::uint32_t met = 0;

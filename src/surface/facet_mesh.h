@@ -79,13 +79,8 @@ class FacetMesh {
     return found == delaunay::k_none ? k_none : index_of_triangle_[found];
   }
 
-  /// For many locate_roughly at once: memory is asked ahead for what each reads first, step by step.
-  void fetch() const {
-    constexpr std::size_t k_line = 64;
-    for (std::size_t at = 0; at < sizeof(FacetMesh); at += k_line) {
-      __builtin_prefetch(reinterpret_cast<const char*>(this) + at);
-    }
-  }
+  /// For many locate_roughly at once: memory is asked ahead for what each reads first, step by
+  /// step, once the mesh itself is there.
   void fetch_start(const Vec2& point) const { raster_.fetch(point); }
   delaunay::TriangleId fetch_triangle(const Vec2& point) const {
     const delaunay::TriangleId start = raster_.at(point);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "base/prefetch.h"
+
 namespace radvor {
 
 namespace {
@@ -18,9 +20,9 @@ class Chain {
       __builtin_prefetch(&parts_.records[point.facet]);
       __builtin_prefetch(&parts_.small_triangles[point.facet]);
     }
-    sort();
+    tell_apart();
     for (std::size_t k = 0; k < meshed_; ++k) {
-      meshes_[k]->fetch();
+      prefetch(*meshes_[k]);
     }
     for (std::size_t k = 0; k < corners_; ++k) {
       __builtin_prefetch(&parts_.shares[chain_[k]].sample);
@@ -51,7 +53,7 @@ class Chain {
 
  private:
   // Those on facets that are meshed, and the corners of those that are single triangles.
-  void sort() {
+  void tell_apart() {
     for (const PlanePoint& point : points_) {
       const std::uint32_t mesh = parts_.records[point.facet].mesh;
       if (mesh != k_none) {
