@@ -9,8 +9,11 @@ namespace radvor {
 
 namespace {
 
-constexpr double k_patches_at_unit_tolerance = 30;  // patches = this / tolerance
+constexpr double k_patches_at_unit_tolerance = 20;  // patches = this / tolerance
 constexpr std::uint32_t k_refinements = 5;          // from the patches to min_spacing, where left open
+constexpr std::uint32_t k_border_levels = 2;        // of those, that borders begin with
+constexpr double k_contact_spacing = 0.1;           // over the tolerance and the root of the area
+constexpr double k_lattice_share = 2;               // of corners, over the tolerance: sites of the first lattice
 constexpr double k_most_sites = 1 << 28;            // ids are 32 bits, and a sample may have several shares
 
 // What the number of sites depends on: lattice sites go by area, border sites by length, corners are there anyway.
@@ -48,11 +51,19 @@ double estimate_sites(const Extent& extent, Lattice lattice, double spacing) {
   return extent.one_sided / (cell_shape(lattice) * spacing * spacing) + extent.border / spacing + extent.corners;
 }
 
-// Of first elements.
-std::uint32_t levels_for(double tolerance, bool refines) {
-  if (refines) {
-    return 0;
+// Of first elements that refinement begins with. Where corners are most of the sites, and rays few, a lattice costs
+// next to nothing.
+std::uint32_t levels_by_corners(const Extent& extent, double patches, double tolerance) {
+  std::uint32_t levels = 0;
+  while (levels < k_refinements - k_border_levels &&
+         std::ldexp(patches, 2 * static_cast<int>(levels + 1)) <= k_lattice_share * tolerance * extent.corners) {
+    ++levels;
   }
+  return levels;
+}
+
+// Of first elements that stay as they are.
+std::uint32_t levels_for(double tolerance) {
   if (tolerance >= 0.08) {
     return 1;
   }
@@ -82,8 +93,12 @@ SurfaceOptions choose_spacing(const Scene& scene, const WeldedScene& welded, con
     options.patch_spacing = std::sqrt(extent.area / (patches * cell_shape(request.lattice)));
   }
 
-  options.element_levels =
-      request.element_levels > 0 ? request.element_levels : levels_for(request.tolerance, request.refines);
+  const double patches = extent.area / (cell_shape(request.lattice) * options.patch_spacing * options.patch_spacing);
+  options.element_levels = request.element_levels > 0 ? request.element_levels
+                           : request.refines          ? levels_by_corners(extent, patches, request.tolerance)
+                                                      : levels_for(request.tolerance);
+  options.border_levels = request.refines ? k_border_levels : 0;
+  options.contact_spacing = k_contact_spacing * request.tolerance * std::sqrt(extent.area);
   if (request.element_levels == 0) {
     while (options.element_levels > 0 &&
            scaled_down(options.patch_spacing, options.element_levels) < request.min_spacing) {

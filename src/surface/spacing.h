@@ -24,9 +24,10 @@ struct SpacingRequest {
 /// The smallest spacing that refinement comes down to.
 double finest_spacing(const SurfaceOptions& options);
 
-/// Resolved so that the scene has about 30 / tolerance patches and, at the first elements' spacing, no more sites than
-/// max_sites (estimated from areas and border lengths). Where refinement is on it
-/// goes down to a thirty-second of the patches' spacing if min_spacing is left open; where it is off there is none.
+/// Resolved so that the scene has about 20 / tolerance patches and, at the first elements' spacing, no more sites than
+/// max_sites (estimated from areas and border lengths). Where refinement is on the first elements are the patches, or
+/// finer where corners are so many that their lattice hardly counts; borders are raised by two levels, and it goes down
+/// to a thirty-second of the patches' spacing if min_spacing is left open. Where it is off there is none.
 SurfaceOptions choose_spacing(const Scene& scene, const WeldedScene& welded, const Facets& facets,
                               const SpacingRequest& request);
 

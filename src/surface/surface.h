@@ -31,6 +31,8 @@ struct SurfaceOptions {
   double patch_spacing = 1;          ///< between level-0 sites, scene units
   std::uint32_t element_levels = 2;  ///< the first elements' lattice has patch_spacing / 2^element_levels
   double min_spacing = 0;            ///< refinement stops here
+  std::uint32_t border_levels = 0;   ///< that sites on sharp edges are raised by before there is light
+  double contact_spacing = 0;        ///< gaps narrower than this are not resolved before there is light
 };
 
 struct Site {

@@ -9,8 +9,8 @@
 
 #include "scene/box_tree.h"
 #include "scene/shape.h"
+#include "surface/first_levels.h"
 #include "surface/made_surface.h"
-#include "surface/near_contacts.h"
 #include "surface/solids.h"
 
 namespace radvor {
@@ -126,6 +126,7 @@ TEST(ContactSites, AboutALampUnderACeilingTheSpacingComesDownToTheGap) {
     resolve_gaps(made.surface, options, static_cast<std::uint32_t>(before + 100), heap());
     EXPECT_LE(made.surface.sites().size(), before + 100);
     resolve_gaps(made.surface, options, 0, heap());
+    made.surface.refine({});
     EXPECT_TRUE(sites_wider_than_gaps(made.surface, options, heap()).empty());
     test::audit(made);
     test::audit_cells(made);
@@ -145,6 +146,28 @@ TEST(ContactSites, AboutALampUnderACeilingTheSpacingComesDownToTheGap) {
     EXPECT_GT(at_outline, 5.0 / spacing);
     EXPECT_LT(made.surface.sites().size(), 4.0 * 4.0 / (spacing * spacing));  // and not everywhere
   }
+}
+
+TEST(ContactSites, AGapNarrowerThanTheContactsSpacingIsResolvedToThatAlone) {
+  SceneBuilder builder(heap());
+  builder.quad({0, 0, 3}, {0, 4, 3}, {4, 4, 3}, {4, 0, 3});
+  builder.begin_mesh();
+  builder.box({1.1, 1.3, 2.5}, {2.3, 2.9, 2.99}, false);
+  SurfaceOptions options{Lattice::hexagonal, 0.4, 0, 0.01};
+  options.contact_spacing = 0.06;
+  MadeSurface made(builder.take(), options);
+  resolve_gaps(made.surface, options, 0, heap());
+  const auto& contacts = made.facets.contacts.edges;
+  ASSERT_EQ(contacts.size(), 4u);
+  std::size_t on_contacts = 0;
+  for (std::uint32_t site = 0; site < made.surface.sites().size(); ++site) {
+    const std::uint32_t edge = made.surface.sites()[site].edge;
+    if (edge != k_none && edge >= contacts.front().edge) {
+      EXPECT_EQ(made.surface.level_of(site), 3u);  // 0.4 / 8 = 0.05
+      ++on_contacts;
+    }
+  }
+  EXPECT_NEAR(static_cast<double>(on_contacts), 5.6 / 0.05, 8);
 }
 
 TEST(ContactSites, ASmallTriangleIsCutToo) {

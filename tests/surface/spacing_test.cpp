@@ -22,7 +22,7 @@ struct Room : test::MadeFacets {
   SurfaceOptions choose(const SpacingRequest& request) const { return choose_spacing(scene, welded, facets, request); }
 };
 
-TEST(Spacing, GivesThirtyPatchesOverTheTolerance) {
+TEST(Spacing, GivesTwentyPatchesOverTheTolerance) {
   const Room room;
   for (const double tolerance : {0.1, 0.02, 0.004}) {
     for (const Lattice lattice : {Lattice::hexagonal, Lattice::quadrilateral}) {
@@ -31,7 +31,7 @@ TEST(Spacing, GivesThirtyPatchesOverTheTolerance) {
       request.lattice = lattice;
       const double spacing = room.choose(request).patch_spacing;
       const double cell = spacing * spacing * (lattice == Lattice::hexagonal ? std::numbers::sqrt3 / 2 : 1);
-      EXPECT_NEAR(80 / cell, 30 / tolerance, 1e-6 * 30 / tolerance);
+      EXPECT_NEAR(80 / cell, 20 / tolerance, 1e-6 * 20 / tolerance);
     }
   }
 }
@@ -68,6 +68,7 @@ TEST(Spacing, RefinementBeginsWithThePatchesAndEndsAtAThirtySecond) {
   request.refines = true;
   SurfaceOptions options = room.choose(request);
   EXPECT_EQ(options.element_levels, 0u);
+  EXPECT_EQ(options.border_levels, 2u);
   EXPECT_EQ(options.min_spacing, options.patch_spacing / 32);
   EXPECT_EQ(refinements(options), 5u);
   request.element_levels = 3;
@@ -77,6 +78,7 @@ TEST(Spacing, RefinementBeginsWithThePatchesAndEndsAtAThirtySecond) {
   request.refines = false;
   request.element_levels = 0;
   EXPECT_EQ(refinements(room.choose(request)), 0u);
+  EXPECT_EQ(room.choose(request).border_levels, 0u);
   request.refines = true;
   request.patch_spacing = 0.4;
   request.min_spacing = 0.11;
@@ -101,6 +103,41 @@ TEST(Spacing, CoarsensUntilSitesAreWithinTheLimit) {
     const Surface surface(room.scene, room.welded, room.facets, options, host);
     EXPECT_LE(surface.sites().size(), limit);
     EXPECT_GE(surface.sites().size(), limit / 3);
+  }
+}
+
+TEST(Spacing, WhereCornersAreMostOfTheSitesTheFirstElementsAreFiner) {
+  // The same room with a hundred small boxes, 800 corners more: twice the tolerance of them is what the lattice takes.
+  test::SceneBuilder builder(std::pmr::get_default_resource());
+  builder.box({0, 0, 0}, {4, 4, 3}, true);
+  for (int k = 0; k < 100; ++k) {
+    const Vec3 at(0.2 + 0.3 * (k % 10), 0.2 + 0.3 * (k / 10), 1);
+    builder.box(at, at + Vec3(0.01), false);
+  }
+  const test::MadeFacets made(builder.take());
+  SpacingRequest request;
+  request.refines = true;
+  const auto levels = [&](double tolerance) {
+    request.tolerance = tolerance;
+    return choose_spacing(made.scene, made.welded, made.facets, request).element_levels;
+  };
+  EXPECT_EQ(levels(0.3), 1u);   // 67 patches, 4 x 67 <= 485 < 16 x 67
+  EXPECT_EQ(levels(0.8), 2u);   // 25 patches, 16 x 25 <= 1292 < 64 x 25
+  EXPECT_EQ(levels(0.02), 0u);  // 1000 patches, 4 x 1000 > 32
+  request.refines = false;
+  EXPECT_EQ(levels(0.3), 1u);
+  request.refines = true;
+  request.element_levels = 3;
+  EXPECT_EQ(levels(0.02), 3u);
+}
+
+TEST(Spacing, ContactsAreResolvedAsTheToleranceAsks) {
+  const Room room;
+  SpacingRequest request;
+  request.refines = true;
+  for (const double tolerance : {0.1, 0.02}) {
+    request.tolerance = tolerance;
+    EXPECT_NEAR(room.choose(request).contact_spacing, 0.1 * tolerance * std::sqrt(80.0), 1e-9);
   }
 }
 
