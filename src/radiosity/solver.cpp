@@ -84,7 +84,9 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
   sights_.assign(samples.size(), 0);
   anchors_.assign(samples.size(), k_unanchored);
   visibility_.reset(maker.make(maker.user, {welded->positions, corners}, host));
-  place_receivers();
+  pending_.resize(samples.size());
+  std::iota(pending_.begin(), pending_.end(), 0u);
+  place_receivers(pending_);
   records_.assign(samples.size(), k_none);
   known_.assign(samples.size(), 0);
   outlooks_.assign(samples.size(), Outlook{});
@@ -92,8 +94,6 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
   unprobed_.assign(samples.size(), 1);
   glimpsed_.assign(samples.size(), 0.0f);
   stage_ = sum(light_->sky_radiance()) > 0 ? Stage::glimpse : Stage::direct;
-  pending_.resize(samples.size());
-  std::iota(pending_.begin(), pending_.end(), 0u);
   blocks_.emplace(*surface, receivers_, pending_, host);
   hemispheres_.emplace(scene, *facets, occluders_, host);
   if (options.spacing.refines && light_->source_count() > 0 && !occluders_.empty()) {
@@ -166,17 +166,6 @@ void Solver::count(const TransportCounters& counters) {
 
 std::uint32_t Solver::next_blocks(std::uint32_t per_thread) const {
   return std::min(blocks_->count(), block_ + per_thread * host.jobs.thread_count());
-}
-
-void Solver::place_receivers() {
-  const auto samples = surface->samples();
-  receivers_.resize(samples.size());
-  host.jobs.for_ranges(samples.size(), 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Sample& sample = samples[i];
-      receivers_[i] = {sample.point, sample.point + sample.facet_normal * visibility_->lift(), sample.normal};
-    }
-  });
 }
 
 // Direct light of one source on some blocks of receivers.

@@ -32,6 +32,9 @@
 
 namespace radvor {
 
+/// Of a task that does little to each sample.
+inline constexpr std::size_t k_samples_a_task = 4096;
+
 class Solver {
  public:
   Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& maker, Host& lender);
@@ -150,7 +153,11 @@ class Solver {
   std::uint32_t sample_of(std::uint32_t front_share, bool back) const;
   std::uint32_t next_blocks(std::uint32_t per_thread) const;
   double unshot_luminance() const;
-  void place_receivers();
+  void place_receivers(std::span<const std::uint32_t> samples);
+  void follow_receivers(std::span<const SampleOrigin> origins);
+  std::uint64_t move_into_slots(std::span<const std::uint32_t> samples);
+  Vec3 way_inside(std::uint32_t sample) const;
+  Receiver receiver_at(std::uint32_t sample, const Vec3& point) const;
   void report_convergence();
 
   std::pmr::vector<std::uint32_t> occluders_;  // welded triangle of each triangle that blocks
@@ -213,6 +220,20 @@ class Solver {
   std::uint64_t idle_rays_ = 0, rays_before_standouts_ = 0;  // the latter without the former
   BakeStats stats_;
 };
+
+// What is known of samples, under their new numbers after a refinement.
+template <class Value>
+void Solver::renumber(std::pmr::vector<Value>& values, std::span<const SampleOrigin> origins, const Value& unknown) {
+  std::pmr::vector<Value> now(origins.size(), unknown, values.get_allocator());
+  host.jobs.for_ranges(origins.size(), k_samples_a_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (origins[i].kept) {
+        now[i] = values[origins[i].samples[0]];
+      }
+    }
+  });
+  values.swap(now);
+}
 
 template <class Work>
 void Solver::over_blocks(std::uint32_t begin, std::uint32_t end, Work&& work) {

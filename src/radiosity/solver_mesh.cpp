@@ -14,8 +14,6 @@ constexpr double k_local = 5;  // tolerances that a place may be off relative to
 // Of all samples. So few sites rise by two levels at once: the next round, a pass over everything, would be for them.
 constexpr double k_few = 0.0005;
 
-constexpr std::size_t k_range = 4096;  // samples of a task that does little to each
-
 }  // namespace
 
 // Raises the mesh's level where the light so far demands it; the new samples' light is next. Where it demands nothing
@@ -90,19 +88,6 @@ bool Solver::raise(std::span<const std::uint32_t> raised) {
   return true;
 }
 
-template <class Value>
-void Solver::renumber(std::pmr::vector<Value>& values, std::span<const SampleOrigin> origins, const Value& unknown) {
-  std::pmr::vector<Value> now(origins.size(), unknown, values.get_allocator());
-  host.jobs.for_ranges(origins.size(), k_range, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (origins[i].kept) {
-        now[i] = values[origins[i].samples[0]];
-      }
-    }
-  });
-  values.swap(now);
-}
-
 // Renumbers what is known of samples and shares after a refinement; new samples are pending.
 void Solver::follow(std::span<const Share> before, std::span<const std::uint32_t> before_sites,
                     std::span<const SampleOrigin> origins) {
@@ -118,7 +103,7 @@ void Solver::follow(std::span<const Share> before, std::span<const std::uint32_t
   }
   renumber(anchors_, origins, k_unanchored);
   std::pmr::vector<float> glimpsed(origins.size(), memory);
-  host.jobs.for_ranges(origins.size(), k_range, [&](std::size_t begin, std::size_t end) {
+  host.jobs.for_ranges(origins.size(), k_samples_a_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       SampleOrigin& anchor = anchors_[i];
       anchor = origins[i].kept ? anchor : origins[i];
@@ -144,7 +129,7 @@ void Solver::follow(std::span<const Share> before, std::span<const std::uint32_t
   renumber(unprobed_, origins, std::uint8_t{1});
   indirect.assign(origins.size(), Color(0.0));
 
-  place_receivers();
+  follow_receivers(origins);
   if (hemispheres_->size() > 0) {
     hemispheres_->follow(follow_shares(before, before_sites, now, *surface, host));
   }

@@ -12,7 +12,7 @@ namespace {
 constexpr double k_patches_at_unit_tolerance = 20;  // patches = this / tolerance
 constexpr std::uint32_t k_refinements = 5;          // from the patches to min_spacing, where left open
 constexpr std::uint32_t k_border_levels = 2;        // of those, that borders begin with
-constexpr double k_contact_spacing = 0.1;           // over the tolerance and the root of the area
+constexpr double k_contact_spacing = 0.2;           // over the tolerance and the root of the area
 constexpr double k_lattice_share = 2;               // of corners, over the tolerance: sites of the first lattice
 constexpr double k_most_sites = 1 << 28;            // ids are 32 bits, and a sample may have several shares
 

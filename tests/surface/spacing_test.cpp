@@ -137,7 +137,7 @@ TEST(Spacing, ContactsAreResolvedAsTheToleranceAsks) {
   request.refines = true;
   for (const double tolerance : {0.1, 0.02}) {
     request.tolerance = tolerance;
-    EXPECT_NEAR(room.choose(request).contact_spacing, 0.1 * tolerance * std::sqrt(80.0), 1e-9);
+    EXPECT_NEAR(room.choose(request).contact_spacing, 0.2 * tolerance * std::sqrt(80.0), 1e-9);
   }
 }
 

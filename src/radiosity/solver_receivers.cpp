@@ -1,0 +1,121 @@
+// Where samples look from: near their sites, but where something covers a cell more closely than the cell is deep.
+#include <atomic>
+#include <cmath>
+#include <numeric>
+
+#include "radiosity/method.h"
+#include "radiosity/solver.h"
+#include "surface/receiver_point.h"
+
+namespace radvor {
+
+namespace {
+
+// Of the way to the middle of its cell: a receiver that has moved so far is another one.
+constexpr double k_moved = 0.25;
+
+// In a slot whose walls are `gap` apart, under uniform light from outside: how far from its mouth it is as bright as a
+// cell that reaches `depth` into it is in the mean. At a distance x the form factor of the mouth, a strip seen from its
+// foot, is (1 - x / hypot(x, gap)) / 2; where that is its mean up to `depth`, x / hypot(x, gap) is c. Less than half of
+// the depth.
+double mean_distance(double gap, double depth) {
+  const double c = (std::hypot(depth, gap) - gap) / depth;
+  return gap * c / std::sqrt(1 - c * c);
+}
+
+}  // namespace
+
+// Of a sample on a border: from its site to the middle of its cell there, which is half as deep as the cell. Zero for
+// others.
+Vec3 Solver::way_inside(std::uint32_t sample) const {
+  const Sample& of = surface->samples()[sample];
+  return (of.point - surface->sites()[of.site].position) / k_nudge;
+}
+
+Receiver Solver::receiver_at(std::uint32_t sample, const Vec3& point) const {
+  const Sample& of = surface->samples()[sample];
+  return {point, point + of.facet_normal * visibility_->lift(), of.normal};
+}
+
+void Solver::place_receivers(std::span<const std::uint32_t> list) {
+  receivers_.resize(surface->samples().size());
+  std::atomic<std::uint64_t> rays{0};
+  host.jobs.for_ranges(list.size(), k_samples_a_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      receivers_[list[k]] = receiver_at(list[k], surface->samples()[list[k]].point);
+    }
+    rays += move_into_slots(list.subspan(begin, end - begin));
+  });
+  stats_.rays += rays;
+}
+
+// A site at the mouth of a slot looks out of it, and its light is not that of its cell, which is dark but for a strip
+// as wide as the gap; beside a contact with a gap it is half in the dark, and the cell is not. Returns rays cast.
+std::uint64_t Solver::move_into_slots(std::span<const std::uint32_t> list) {
+  const auto& contacts = facets->contacts.edges;
+  const std::uint32_t first_contact = contacts.empty() ? k_none : contacts.front().edge;
+  const double lift = visibility_->lift();
+  std::pmr::vector<std::uint32_t> asked(&host.memory);
+  std::pmr::vector<Sightline> above(&host.memory);
+  const auto inside = [&](std::uint32_t sample, double gap) {
+    const Vec3 way = way_inside(sample);
+    const double length = glm::length(way);
+    return receiver_at(sample, surface->sites()[surface->samples()[sample].site].position +
+                                   mean_distance(gap, 2 * length) / length * way);
+  };
+  for (const std::uint32_t sample : list) {
+    const double depth = 2 * glm::length(way_inside(sample));
+    if (!(depth > 16 * lift)) {
+      continue;  // inside its facet, or too small for rays to tell
+    }
+    const std::uint32_t edge = surface->sites()[surface->samples()[sample].site].edge;
+    const double gap = edge != k_none && edge >= first_contact ? contacts[edge - first_contact].gap : 0;
+    if (gap > 0 && gap < depth) {
+      receivers_[sample] = inside(sample, gap);
+    } else {
+      const Vec3& from = receivers_[sample].lifted;
+      asked.push_back(sample);
+      above.push_back({from, from + depth * surface->samples()[sample].facet_normal});
+    }
+  }
+  std::pmr::vector<std::uint8_t> covered(asked.size(), &host.memory);
+  visibility_->blocked(above, covered.data());
+  std::uint64_t rays = asked.size();
+  for (std::size_t k = 0; k < asked.size(); ++k) {
+    if (covered[k] != 0) {
+      const Vec3& up = surface->samples()[asked[k]].facet_normal;
+      const double gap = visibility_->first_hit(receivers_[asked[k]].lifted, up).distance + lift;
+      const Receiver moved = inside(asked[k], gap);
+      const Sightline over{moved.lifted, moved.lifted + 2 * gap * up};
+      std::uint8_t still = 0;
+      visibility_->blocked({&over, 1}, &still);
+      receivers_[asked[k]] = still != 0 ? moved : receivers_[asked[k]];
+      rays += 2;
+    }
+  }
+  return rays;
+}
+
+// After a refinement. What has looked around keeps the place that its rays came from. Before that, the light of a
+// sample that looks from elsewhere now, because its cell is no longer deeper than a gap, is due again.
+void Solver::follow_receivers(std::span<const SampleOrigin> origins) {
+  renumber(receivers_, origins, Receiver{});
+  if (looking_) {
+    place_receivers(pending_);
+    return;
+  }
+  const std::pmr::vector<Receiver> before(receivers_, &host.memory);
+  std::pmr::vector<std::uint32_t> all(origins.size(), &host.memory);
+  std::iota(all.begin(), all.end(), 0u);
+  place_receivers(all);
+  for (std::uint32_t i = 0; i < origins.size(); ++i) {
+    if (origins[i].kept &&
+        glm::distance(before[i].point, receivers_[i].point) > k_moved * glm::length(way_inside(i))) {
+      direct[i] = Color(0.0);
+      sights_[i] = 0;
+      pending_.push_back(i);
+    }
+  }
+}
+
+}  // namespace radvor
