@@ -14,7 +14,6 @@ constexpr double k_step = 0.3;         // RMS of a step's linear interpolation, 
 constexpr double k_bent = 0.2;         // of how far the edge's difference is from what its ends' gradients say
 constexpr double k_unknown = 0.1;      // of the difference, in facets too small to have gradients that say anything
 constexpr std::size_t k_small = 4;     // triangles
-constexpr double k_local_floor = 0.1;  // of the mean: what is darker counts as this
 
 double mean(const Color& color) {
   return (color.r + color.g + color.b) / 3;
@@ -108,9 +107,7 @@ class FacetErrors {
         if (light_.sights[c[k].sample] != light_.sights[c[next].sample]) {
           error = std::max(error, k_step * std::abs(difference));
         }
-        const double own = 0.5 * (c[k].value + c[next].value) + k_local_floor * goal_.mean_irradiance;
-        const double relative =
-            error * std::max(1 / (goal_.tolerance * goal_.mean_irradiance), 1 / (goal_.local_tolerance * own));
+        const double relative = error / (goal_.tolerance * goal_.mean_irradiance);
         const double score = relative * relative * area / 6;
         if (score > 0) {
           errors.push_back({static_cast<float>(score), samples[c[k].sample].site, samples[c[next].sample].site});

@@ -21,7 +21,6 @@ struct SampledLight {
 
 struct RefinementGoal {
   double tolerance;        ///< of the area-weighted RMS, relative to mean_irradiance
-  double local_tolerance;  ///< the same, relative to each place's own light (plus a tenth of the mean)
   double mean_irradiance;  ///< mean of the three channels, > 0
 };
 

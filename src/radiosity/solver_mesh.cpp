@@ -9,8 +9,6 @@ namespace radvor {
 
 namespace {
 
-constexpr double k_local = 5;  // tolerances that a place may be off relative to its own light
-
 // Of all samples. So few sites rise by two levels at once: the next round, a pass over everything, would be for them.
 constexpr double k_few = 0.0005;
 
@@ -29,7 +27,7 @@ void Solver::refine() {
   }
   if (options.spacing.refines && round_ < 2 * surface->max_level()) {
     const double mean = mean_of(light);
-    const RefinementGoal goal{k_share_of_mesh * options.tolerance, k_local * options.tolerance, mean};
+    const RefinementGoal goal{k_share_of_mesh * options.tolerance, mean};
     if (mean > 0) {
       raised_ = plan_refinement(*surface, {light, sights_}, goal, host);
     }
