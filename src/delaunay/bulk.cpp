@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <type_traits>
 
 #include "base/error.h"
 #include "delaunay/spatial_order.h"
@@ -49,6 +50,26 @@ void Triangulation::insert_many(std::span<const Vec2> points, VertexId* vertices
     lattice_ = lattice;
     throw;
   }
+}
+
+void Triangulation::reserve(std::uint32_t vertices) {
+  positions_.reserve(vertices);
+  mesh_.reserve_vertices_exactly(vertices);
+  mesh_.reserve_triangles_exactly(2 * vertices);
+}
+
+void Triangulation::trim() {
+  const auto let_go = [](auto& vector) {
+    std::remove_reference_t<decltype(vector)> none(vector.get_allocator());
+    none.swap(vector);
+  };
+  mesh_.trim();
+  let_go(reused_);
+  let_go(changed_);
+  let_go(changed_before_);
+  let_go(reports_);
+  let_go(stack_);
+  let_go(cavity_.slots);
 }
 
 // The work is done with ids in the spatial order, so that what is near in the plane is near in memory; afterwards the

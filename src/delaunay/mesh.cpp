@@ -12,6 +12,9 @@ namespace {
 // Half-edges are 4 t + i and the two highest ids are taken.
 constexpr std::uint32_t k_most_triangles = (1u << 30) - 2;
 
+// What an edge of a small triangulation takes that is made a constraint: most need no more.
+constexpr std::size_t k_first_saved = 16;
+
 template <class Vector>
 void grow_to_hold(Vector& vector, std::size_t size) {
   if (vector.capacity() < size) {
@@ -127,6 +130,9 @@ void Mesh::begin() {
 
 void Mesh::remember(TriangleId t) {
   if (t < saved_records_ && triangles_[t].mark != transaction_) {
+    if (saved_.capacity() == 0) {
+      saved_.reserve(k_first_saved);
+    }
     saved_.push_back({t, triangles_[t]});
     triangles_[t].mark = transaction_;
   }

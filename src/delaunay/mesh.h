@@ -164,6 +164,8 @@ class Mesh {
   void commit();
   void rollback() noexcept;
   bool in_transaction() const { return transaction_ != 0; }
+  /// Lets go of the memory that transactions keep for the next ones; not within one.
+  void trim() { std::pmr::vector<Saved>(saved_.get_allocator()).swap(saved_); }
 
  private:
   struct Saved {

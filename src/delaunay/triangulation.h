@@ -60,6 +60,11 @@ class Triangulation {
   /// New vertices get ids in input order. vertices: count ids, or NULL.
   void insert_many(std::span<const Vec2> points, VertexId* vertices);
 
+  /// Makes room for so many vertices in all, so that a few insert_many need not make it one after the other.
+  void reserve(std::uint32_t vertices);
+  /// Lets go of the memory that edits keep for the next ones, and of what the last one changed.
+  void trim();
+
   /// Removes a vertex and its constraint edges; two collinear ones with the same flags become one again.
   void remove(VertexId vertex);
 

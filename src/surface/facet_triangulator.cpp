@@ -31,12 +31,13 @@ FacetTriangulator::FacetTriangulator(const FacetInput& input, FacetMesh& mesh, F
     : in_(input),
       mesh_(mesh),
       draft_(draft),
-      outline_(input.welded, input.facets, input.index, input.memory),
-      chains_(input.memory),
-      first_of_chain_(input.memory),
-      borders_(input.memory),
-      inner_(input.memory),
-      share_at_(input.memory) {}
+      scratch_(room_.data(), room_.size(), input.memory),
+      outline_(input.welded, input.facets, input.index, &scratch_),
+      chains_(&scratch_),
+      first_of_chain_(&scratch_),
+      borders_(&scratch_),
+      inner_(&scratch_),
+      share_at_(&scratch_) {}
 
 bool FacetTriangulator::run() {
   if (!outline_.sound) {
@@ -44,10 +45,12 @@ bool FacetTriangulator::run() {
   }
   try {
     delaunay::Triangulation& triangulation = mesh_.delaunay_.emplace(in_.memory);
+    triangulation.reserve(known_vertices());
     if (insert_corners(triangulation) && insert_borders(triangulation)) {
       triangulation.mark_domain();
       if (insert_inner(triangulation) && find_shares(triangulation) && find_triangles(triangulation) &&
           find_sources(triangulation)) {
+        triangulation.trim();
         return true;
       }
     }
@@ -67,9 +70,18 @@ bool FacetTriangulator::run() {
   return false;
 }
 
+// All but those of a lattice that are still to be found.
+std::uint32_t FacetTriangulator::known_vertices() const {
+  std::size_t count = outline_.vertices.size() + (in_.inner ? *in_.inner : in_.given).size();
+  for (const OutlineEdge& edge : outline_.edges) {
+    count += in_.borders.count_on_edge(edge.edge);
+  }
+  return static_cast<std::uint32_t>(count);
+}
+
 bool FacetTriangulator::insert_corners(delaunay::Triangulation& triangulation) {
   const Frame& frame = in_.facet().frame;
-  std::pmr::vector<Vec2> points(in_.memory);
+  std::pmr::vector<Vec2> points(&scratch_);
   for (const std::uint32_t vertex : outline_.vertices) {
     points.push_back(frame.to_plane(in_.welded.positions[vertex]));
     mesh_.sites_.push_back(in_.borders.at_vertex(vertex));
@@ -89,7 +101,7 @@ delaunay::VertexId FacetTriangulator::corner(std::uint32_t welded_vertex) const 
 // there, and no piece is in the way of a site that is still to come.
 bool FacetTriangulator::insert_borders(delaunay::Triangulation& triangulation) {
   const double unit = k_border_grid * in_.facet().frame.unit;
-  std::pmr::vector<Vec2> points(in_.memory);
+  std::pmr::vector<Vec2> points(&scratch_);
   for (const OutlineEdge& edge : outline_.edges) {
     const Edge& ends = in_.welded.edges[edge.edge];
     const Segment segment{triangulation.position(corner(ends.a)), triangulation.position(corner(ends.b))};
@@ -142,7 +154,7 @@ void FacetTriangulator::constrain_contact(delaunay::Triangulation& triangulation
 bool FacetTriangulator::insert_inner(delaunay::Triangulation& triangulation) {
   const FacetLattice& lattice =
       mesh_.lattice_.emplace(in_.options.lattice, in_.options.patch_spacing, 0.5 * (low_ + high_));
-  std::pmr::vector<Vec2> points(in_.memory);
+  std::pmr::vector<Vec2> points(&scratch_);
   const std::span<const InnerSite> known = in_.inner ? *in_.inner : in_.given;
   points.reserve(known.size());
   for (const InnerSite& inner : known) {
@@ -159,12 +171,12 @@ bool FacetTriangulator::insert_inner(delaunay::Triangulation& triangulation) {
 // Those of the first elements' level; they get their numbers later.
 void FacetTriangulator::find_lattice_sites(const FacetLattice& lattice, std::pmr::vector<Vec2>& points) {
   const std::uint32_t level = in_.options.element_levels;
-  std::pmr::vector<Segment> obstacles(inner_, in_.memory);
+  std::pmr::vector<Segment> obstacles(inner_, &scratch_);
   for (const InnerSite& given : in_.given) {
     obstacles.push_back({given.position, given.position});
   }
   find_interior_sites(lattice, level, borders_, obstacles, k_half_spacing * lattice.column(level), draft_.lattice,
-                      in_.memory);
+                      &scratch_);
   points.reserve(points.size() + draft_.lattice.size());
   for (const LatticeIndex& index : draft_.lattice) {
     points.push_back(lattice.point(level, index));
@@ -177,7 +189,7 @@ bool FacetTriangulator::find_shares(const delaunay::Triangulation& triangulation
   mesh_.first_share_.reserve(vertices);
   draft_.shares.reserve(vertices);
   share_at_.assign(std::size_t{4} * triangulation.triangle_bound(), k_none);
-  delaunay::CellBuffer buffer(in_.memory);
+  delaunay::CellBuffer buffer(&scratch_);
   double area = 0;
   for (delaunay::VertexId vertex = 0; vertex < vertices; ++vertex) {
     bounded_cell(triangulation, vertex, buffer);
@@ -219,7 +231,7 @@ bool FacetTriangulator::find_triangles(const delaunay::Triangulation& triangulat
 }
 
 bool FacetTriangulator::find_sources(const delaunay::Triangulation& triangulation) {
-  std::pmr::vector<Claim> claims(draft_.shares.size(), Claim::none, in_.memory);
+  std::pmr::vector<Claim> claims(draft_.shares.size(), Claim::none, &scratch_);
   const auto claim = [&](std::uint32_t share, Claim strength, const EdgeUse& use) {
     if (strength > claims[share]) {
       claims[share] = strength;

@@ -1,6 +1,8 @@
 // The steps from a facet's outline to its triangulation and shares.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory_resource>
 #include <vector>
@@ -22,6 +24,7 @@ class FacetTriangulator {
   bool run();
 
  private:
+  std::uint32_t known_vertices() const;
   bool insert_corners(delaunay::Triangulation& triangulation);
   bool insert_borders(delaunay::Triangulation& triangulation);
   static void constrain_contact(delaunay::Triangulation& triangulation, delaunay::VertexId a, delaunay::VertexId b);
@@ -35,6 +38,9 @@ class FacetTriangulator {
   const FacetInput& in_;
   FacetMesh& mesh_;
   FacetDraft& draft_;
+  // For what is needed only until the facet is done: most facets are small, and there may be a hundred thousand.
+  alignas(std::max_align_t) std::array<std::byte, 16384> room_;
+  std::pmr::monotonic_buffer_resource scratch_;
   FacetOutline outline_;
   std::pmr::vector<delaunay::VertexId> chains_;     // per outline edge: its a, the sites inside, its b
   std::pmr::vector<std::uint32_t> first_of_chain_;  // per outline edge, and one past the last
