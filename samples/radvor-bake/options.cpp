@@ -97,7 +97,7 @@ void add_bake_options(CLI::App& app, Options& options, Words& words) {
   app.add_option("--min-spacing", bake.min_spacing, "Refinement stops here, scene units (default: from the scene)")
       ->check(CLI::Range(0.0f, k_most));
   app.add_option("--element-levels", bake.element_levels,
-                 "Lattice levels between patches and the first elements (default: from the tolerance)");
+                 "Lattice levels between patches and the first elements (default: from the scene and the tolerance)");
   app.add_option("--max-sites", bake.max_sites, "(default: no limit)");
   app.add_option("--max-bounces", bake.max_bounces, "(default: until converged)");
   app.add_option("--max-seconds", bake.max_seconds, "(default: no limit)")

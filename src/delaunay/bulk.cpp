@@ -13,6 +13,10 @@
 
 namespace radvor::delaunay {
 
+namespace {
+constexpr std::uint32_t k_most_at_once = 1u << 29;  // points: they have twice as many triangles
+}  // namespace
+
 void Triangulation::insert_many(std::span<const Vec2> points, VertexId* vertices) {
   for (const Vec2 point : points) {
     check(point);
@@ -20,7 +24,7 @@ void Triangulation::insert_many(std::span<const Vec2> points, VertexId* vertices
   if (points.empty()) {
     return;
   }
-  if (points.size() > (1u << 29)) {
+  if (points.size() > k_most_at_once) {
     throw Error(ErrorCode::limit, "more than 2^29 points");
   }
   const bool from_nothing = vertex_count_ == 0 && positions_.empty();
@@ -53,6 +57,9 @@ void Triangulation::insert_many(std::span<const Vec2> points, VertexId* vertices
 }
 
 void Triangulation::reserve(std::uint32_t vertices) {
+  if (vertices > k_most_at_once) {
+    throw Error(ErrorCode::limit, "more than 2^29 points");
+  }
   positions_.reserve(vertices);
   mesh_.reserve_vertices_exactly(vertices);
   mesh_.reserve_triangles_exactly(2 * vertices);

@@ -12,7 +12,7 @@ namespace {
 // Half-edges are 4 t + i and the two highest ids are taken.
 constexpr std::uint32_t k_most_triangles = (1u << 30) - 2;
 
-// What an edge of a small triangulation takes that is made a constraint: most need no more.
+// Records: most constraints of small triangulations change no more.
 constexpr std::size_t k_first_saved = 16;
 
 template <class Vector>

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
@@ -165,7 +166,10 @@ class Mesh {
   void rollback() noexcept;
   bool in_transaction() const { return transaction_ != 0; }
   /// Lets go of the memory that transactions keep for the next ones; not within one.
-  void trim() { std::pmr::vector<Saved>(saved_.get_allocator()).swap(saved_); }
+  void trim() {
+    assert(!in_transaction());
+    std::pmr::vector<Saved>(saved_.get_allocator()).swap(saved_);
+  }
 
  private:
   struct Saved {

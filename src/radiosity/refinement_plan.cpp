@@ -10,10 +10,10 @@ namespace radvor {
 
 namespace {
 
-constexpr double k_step = 0.3;         // RMS of a step's linear interpolation, about 1 / sqrt(12)
-constexpr double k_bent = 0.2;         // of how far the edge's difference is from what its ends' gradients say
-constexpr double k_unknown = 0.1;      // of the difference, in facets too small to have gradients that say anything
-constexpr std::size_t k_small = 4;     // triangles
+constexpr double k_step = 0.3;      // RMS of a step's linear interpolation, about 1 / sqrt(12)
+constexpr double k_bent = 0.2;      // of how far the edge's difference is from what its ends' gradients say
+constexpr double k_unknown = 0.1;   // of the difference, in facets too small to have gradients that say anything
+constexpr std::size_t k_small = 4;  // triangles
 
 double mean(const Color& color) {
   return (color.r + color.g + color.b) / 3;

@@ -47,6 +47,7 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
       from_standouts_(&host.memory),
       glimpsed_(&host.memory),
       guessed_(&host.memory),
+      due_again_(&host.memory),
       shown_(&host.memory),
       stood_out_(&host.memory),
       raised_(&host.memory),

@@ -195,8 +195,13 @@ class Solver {
   std::pmr::vector<Color> from_standouts_;        // irradiance of each sample by them; may be empty
   std::pmr::vector<float> glimpsed_;              // of each sample: share of its view that is sky, a guess
   std::pmr::vector<Color> guessed_;               // of the first samples: light of all sources; in guess()'s blocks
-  std::pmr::vector<Color> shown_;                 // between slices; empty: direct as it is
-  std::pmr::vector<std::uint8_t> stood_out_;      // patches that have shot by themselves
+  struct DueAgain {
+    std::uint32_t sample;
+    Color before;
+  };
+  std::pmr::vector<DueAgain> due_again_;      // of pending samples: direct light, shown until there is the new
+  std::pmr::vector<Color> shown_;             // between slices; empty: direct as it is
+  std::pmr::vector<std::uint8_t> stood_out_;  // patches that have shot by themselves
 
   Stage stage_ = Stage::direct;
   std::uint32_t source_ = 0;                // of the direct stage

@@ -45,6 +45,11 @@ void Solver::show() {
     shown_[i] += (known_[i] != 0 ? outlooks_[i].open : double{glimpsed_[i]}) * sky;
   };
   const bool shines = stage_ == Stage::direct && source_ < light_->source_count();
+  for (const DueAgain& due : due_again_) {
+    if (shines) {
+      shown_[due.sample] = due.before;
+    }
+  }
   if (shines && !looking_ && round_ == 0) {
     for (std::uint32_t block = 0; block < guessed_blocks_; ++block) {
       for (const std::uint32_t sample : blocks_->block(block)) {

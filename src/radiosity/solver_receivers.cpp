@@ -1,4 +1,5 @@
 // Where samples look from: near their sites, but where something covers a cell more closely than the cell is deep.
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <numeric>
@@ -16,20 +17,20 @@ constexpr double k_moved = 0.25;
 
 // In a slot whose walls are `gap` apart, under uniform light from outside: how far from its mouth it is as bright as a
 // cell that reaches `depth` into it is in the mean. At a distance x the form factor of the mouth, a strip seen from its
-// foot, is (1 - x / hypot(x, gap)) / 2; where that is its mean up to `depth`, x / hypot(x, gap) is c. Less than half of
-// the depth.
+// foot, is (1 - x / hypot(x, gap)) / 2; x / hypot(x, gap) is (hypot(depth, gap) - gap) / depth in the mean. Less than
+// half of the depth.
 double mean_distance(double gap, double depth) {
-  const double c = (std::hypot(depth, gap) - gap) / depth;
-  return gap * c / std::sqrt(1 - c * c);
+  return depth * std::sqrt(gap / (2 * (std::hypot(depth, gap) + gap)));
 }
 
 }  // namespace
 
-// Of a sample on a border: from its site to the middle of its cell there, which is half as deep as the cell. Zero for
-// others.
+// Of a sample on a border: from its site to the middle of its cell there, which is half as deep as the cell; in the
+// facet's plane, which a border's site may be off by rounding or welding. Zero for others.
 Vec3 Solver::way_inside(std::uint32_t sample) const {
   const Sample& of = surface->samples()[sample];
-  return (of.point - surface->sites()[of.site].position) / k_nudge;
+  const Vec3 way = (of.point - surface->sites()[of.site].position) / k_nudge;
+  return way - glm::dot(way, of.facet_normal) * of.facet_normal;
 }
 
 Receiver Solver::receiver_at(std::uint32_t sample, const Vec3& point) const {
@@ -60,8 +61,8 @@ std::uint64_t Solver::move_into_slots(std::span<const std::uint32_t> list) {
   const auto inside = [&](std::uint32_t sample, double gap) {
     const Vec3 way = way_inside(sample);
     const double length = glm::length(way);
-    return receiver_at(sample, surface->sites()[surface->samples()[sample].site].position +
-                                   mean_distance(gap, 2 * length) / length * way);
+    const double part = mean_distance(gap, 2 * length) / length;
+    return receiver_at(sample, surface->samples()[sample].point + std::max(part - k_nudge, 0.0) * way);
   };
   for (const std::uint32_t sample : list) {
     const double depth = 2 * glm::length(way_inside(sample));
@@ -69,8 +70,9 @@ std::uint64_t Solver::move_into_slots(std::span<const std::uint32_t> list) {
       continue;  // inside its facet, or too small for rays to tell
     }
     const std::uint32_t edge = surface->sites()[surface->samples()[sample].site].edge;
+    const bool one_sided = !scene.materials[facets->facets[surface->samples()[sample].facet].material].two_sided;
     const double gap = edge != k_none && edge >= first_contact ? contacts[edge - first_contact].gap : 0;
-    if (gap > 0 && gap < depth) {
+    if (gap > 0 && gap < depth && one_sided) {  // else the gap may be on the other side
       receivers_[sample] = inside(sample, gap);
     } else {
       const Vec3& from = receivers_[sample].lifted;
@@ -96,9 +98,10 @@ std::uint64_t Solver::move_into_slots(std::span<const std::uint32_t> list) {
   return rays;
 }
 
-// After a refinement. What has looked around keeps the place that its rays came from. Before that, the light of a
-// sample that looks from elsewhere now, because its cell is no longer deeper than a gap, is due again.
+// After a refinement. Each looks from where its light was taken. Until there are hemispheres, the light of a sample
+// that is to look from elsewhere now, because its cell is no longer as deep, is due again.
 void Solver::follow_receivers(std::span<const SampleOrigin> origins) {
+  due_again_.clear();
   renumber(receivers_, origins, Receiver{});
   if (looking_) {
     place_receivers(pending_);
@@ -109,11 +112,16 @@ void Solver::follow_receivers(std::span<const SampleOrigin> origins) {
   std::iota(all.begin(), all.end(), 0u);
   place_receivers(all);
   for (std::uint32_t i = 0; i < origins.size(); ++i) {
-    if (origins[i].kept &&
-        glm::distance(before[i].point, receivers_[i].point) > k_moved * glm::length(way_inside(i))) {
+    if (!origins[i].kept) {
+      continue;
+    }
+    if (glm::distance(before[i].point, receivers_[i].point) > k_moved * glm::length(way_inside(i))) {
+      due_again_.push_back({i, direct[i]});
       direct[i] = Color(0.0);
       sights_[i] = 0;
       pending_.push_back(i);
+    } else {
+      receivers_[i] = before[i];
     }
   }
 }

@@ -176,7 +176,7 @@ void FacetTriangulator::find_lattice_sites(const FacetLattice& lattice, std::pmr
     obstacles.push_back({given.position, given.position});
   }
   find_interior_sites(lattice, level, borders_, obstacles, k_half_spacing * lattice.column(level), draft_.lattice,
-                      &scratch_);
+                      in_.memory);
   points.reserve(points.size() + draft_.lattice.size());
   for (const LatticeIndex& index : draft_.lattice) {
     points.push_back(lattice.point(level, index));

@@ -11,9 +11,9 @@ double spacing_of(const SurfaceOptions& options, std::uint32_t level) {
   return std::ldexp(options.patch_spacing, -static_cast<int>(options.element_levels + level));
 }
 
-std::uint32_t within(std::size_t sites, std::uint32_t max_sites) {
-  const std::size_t most = std::min<std::size_t>(sites, k_none);
-  return static_cast<std::uint32_t>(max_sites > 0 ? std::min<std::size_t>(most, max_sites) : most);
+std::uint32_t least_limit(std::size_t most, std::size_t max_sites) {
+  most = std::min<std::size_t>(most, k_none);
+  return static_cast<std::uint32_t>(max_sites > 0 ? std::min(most, max_sites) : most);
 }
 
 // The sharp edges at which something adjoins, with their ends, of facets that receive and have at least an area.
@@ -29,7 +29,7 @@ class Borders {
       }
       const auto uses = welded.uses_at_edge(edge);
       if (uses.size() == 1 && welded.uses_by_triangle[uses[0]].side != k_no_side) {
-        continue;  // the surface ends there, and nothing is beside it
+        continue;  // the surface ends there, and no other begins
       }
       edges_[edge] = std::any_of(uses.begin(), uses.end(), [&](std::uint32_t use) {
         const std::uint32_t triangle = welded.uses_by_triangle[use].triangle;
@@ -63,7 +63,11 @@ void raise_first_levels(Surface& surface, const SurfaceOptions& options, std::ui
 
 void raise_borders(Surface& surface, const SurfaceOptions& options, std::uint32_t max_sites,
                    std::pmr::memory_resource* memory) {
-  const std::uint32_t most = within(4 * surface.sites().size() + 8192, max_sites);
+  const std::size_t first = surface.sites().size();
+  if (max_sites != 0 && max_sites <= first) {
+    return;
+  }
+  const std::uint32_t most = least_limit(4 * first + 8192, max_sites == 0 ? 0 : first + (max_sites - first) / 2);
   for (std::uint32_t level = 1; level <= std::min(options.border_levels, surface.max_level()); ++level) {
     const double cell = spacing_of(options, level);
     const Borders borders(surface, cell * cell, memory);
@@ -81,7 +85,7 @@ void raise_borders(Surface& surface, const SurfaceOptions& options, std::uint32_
 void resolve_gaps(Surface& surface, const SurfaceOptions& options, std::uint32_t max_sites,
                   std::pmr::memory_resource* memory) {
   const std::size_t first = surface.sites().size();
-  const std::uint32_t most = within(first + first / 4 + 4096, max_sites);
+  const std::uint32_t most = least_limit(first + first / 4 + 4096, max_sites);
   for (auto wide = sites_wider_than_gaps(surface, options, memory); !wide.empty() && surface.sites().size() < most;
        wide = sites_wider_than_gaps(surface, options, memory)) {
     const std::size_t before = surface.sites().size();
@@ -107,8 +111,7 @@ std::pmr::vector<std::uint32_t> sites_wider_than_gaps(const Surface& surface, co
     }
     const double gap = contacts[sites[site].edge - first_edge].gap;
     const std::uint32_t level = surface.level_of(site);
-    if (gap > 0 && level < surface.max_level() &&
-        spacing_of(options, level) > std::max(gap, options.contact_spacing)) {
+    if (gap > 0 && level < surface.max_level() && spacing_of(options, level) > std::max(gap, options.contact_spacing)) {
       wide.push_back(site);
     }
   }

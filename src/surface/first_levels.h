@@ -16,7 +16,8 @@ void raise_first_levels(Surface& surface, const SurfaceOptions& options, std::ui
                         std::pmr::memory_resource* memory);
 
 /// Raises, to each level in turn, the sites on sharp edges and contacts of facets that are larger than a cell of that
-/// level; not where a surface ends and nothing adjoins. That ends at four times the sites there were, and 8192.
+/// level; not where a surface ends and no other begins. That ends at four times the sites there were, and 8192, and at
+/// half of what max_sites leaves: the rest is for the light.
 void raise_borders(Surface& surface, const SurfaceOptions& options, std::uint32_t max_sites,
                    std::pmr::memory_resource* memory);
 

@@ -24,6 +24,13 @@ struct Extent {
   std::uint32_t corners = 0;  // welded vertices on them
 };
 
+bool receives_at(const Scene& scene, const WeldedScene& welded, std::uint32_t edge) {
+  const auto uses = welded.uses_at_edge(edge);
+  return std::any_of(uses.begin(), uses.end(), [&](std::uint32_t use) {
+    return scene.meshes[welded.triangles[welded.uses_by_triangle[use].triangle].mesh].receives;
+  });
+}
+
 Extent measure(const Scene& scene, const WeldedScene& welded, const Facets& facets) {
   Extent extent;
   for (const Facet& facet : facets.facets) {
@@ -33,7 +40,7 @@ Extent measure(const Scene& scene, const WeldedScene& welded, const Facets& face
     }
   }
   for (std::uint32_t edge = 0; edge < welded.edges.size(); ++edge) {
-    if (facets.edge_kinds[edge] != EdgeKind::interior) {
+    if (facets.edge_kinds[edge] != EdgeKind::interior && receives_at(scene, welded, edge)) {
       extent.border += glm::distance(welded.positions[welded.edges[edge].a], welded.positions[welded.edges[edge].b]);
       ++extent.corners;  // planar subdivisions have up to three edges a vertex, polygons one: an upper bound
     }
@@ -55,7 +62,7 @@ double estimate_sites(const Extent& extent, Lattice lattice, double spacing) {
 // next to nothing.
 std::uint32_t levels_by_corners(const Extent& extent, double patches, double tolerance) {
   std::uint32_t levels = 0;
-  while (levels < k_refinements - k_border_levels &&
+  while (patches > 0 && levels < k_refinements - k_border_levels &&
          std::ldexp(patches, 2 * static_cast<int>(levels + 1)) <= k_lattice_share * tolerance * extent.corners) {
     ++levels;
   }
@@ -94,9 +101,13 @@ SurfaceOptions choose_spacing(const Scene& scene, const WeldedScene& welded, con
   }
 
   const double patches = extent.area / (cell_shape(request.lattice) * options.patch_spacing * options.patch_spacing);
-  options.element_levels = request.element_levels > 0 ? request.element_levels
-                           : request.refines          ? levels_by_corners(extent, patches, request.tolerance)
-                                                      : levels_for(request.tolerance);
+  if (request.element_levels > 0) {
+    options.element_levels = request.element_levels;
+  } else if (!request.refines) {
+    options.element_levels = levels_for(request.tolerance);
+  } else {
+    options.element_levels = request.patch_spacing > 0 ? 0 : levels_by_corners(extent, patches, request.tolerance);
+  }
   options.border_levels = request.refines ? k_border_levels : 0;
   options.contact_spacing = k_contact_spacing * request.tolerance * std::sqrt(extent.area);
   if (request.element_levels == 0) {

@@ -25,8 +25,9 @@ struct SpacingRequest {
 double finest_spacing(const SurfaceOptions& options);
 
 /// Resolved so that the scene has about 20 / tolerance patches and, at the first elements' spacing, no more sites than
-/// max_sites (estimated from areas and border lengths). Where refinement is on the first elements are the patches, or
-/// finer where corners are so many that their lattice hardly counts; borders are raised by two levels, and it goes down
+/// max_sites (estimated from areas and border lengths). Where refinement is on the first elements are the patches, or,
+/// where the host leaves their spacing open, up to three levels finer where corners are so many that their lattice
+/// hardly counts; borders are raised by two levels, and it goes down
 /// to a thirty-second of the patches' spacing if min_spacing is left open. Where it is off there is none.
 SurfaceOptions choose_spacing(const Scene& scene, const WeldedScene& welded, const Facets& facets,
                               const SpacingRequest& request);

@@ -32,7 +32,7 @@ struct SurfaceOptions {
   std::uint32_t element_levels = 2;  ///< the first elements' lattice has patch_spacing / 2^element_levels
   double min_spacing = 0;            ///< refinement stops here
   std::uint32_t border_levels = 0;   ///< that sites on sharp edges are raised by before there is light
-  double contact_spacing = 0;        ///< gaps narrower than this are not resolved before there is light
+  double contact_spacing = 0;        ///< gaps narrower than this are resolved to this alone before there is light
 };
 
 struct Site {
@@ -45,8 +45,9 @@ struct Site {
 };
 
 struct Sample {
-  Vec3 point;         ///< receiver point: on `facet`, nudged from the site into its cell; not lifted off the surface
-  Vec3 normal;        ///< unit shading normal on this side
+  Vec3 point;   ///< receiver point: on `facet`, nudged from the site into its cell; not lifted. In slots light is taken
+                ///< elsewhere
+  Vec3 normal;  ///< unit shading normal on this side
   Vec3 facet_normal;  ///< unit normal of `facet` on this side: the direction to lift along
   double area = 0;    ///< sum over its shares
   std::uint32_t site;

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 #include <vector>
 
 #include "rooms.h"
@@ -58,6 +60,40 @@ TEST(Meanwhile, TheSkyShowsFromTheFirstSlicesOnAtEverySampleOfTheGround) {
   }
   EXPECT_GT(slices, 20u);
   EXPECT_GT(last_sites, first_sites + first_sites / 5);
+}
+
+// Sites beside a block that hangs over the ground look from elsewhere once the mesh there is finer, and until the lamp
+// has shone on them anew they show what they had.
+TEST(Meanwhile, WhatIsDueAgainShowsWhatItHad) {
+  SceneBuilder builder;
+  const std::uint32_t black = builder.material(Color(0.0));
+  builder.quad({-3, -3, 0}, {3, -3, 0}, {3, 3, 0}, {-3, 3, 0}, black);
+  builder.box({-1, -1, 0.05}, {1, 1, 1}, false, black);
+  Light lamp;
+  lamp.position = {3, 0, 0.6};
+  lamp.color = Color(1.0);
+  builder.scene.lights = {lamp};
+  BakeOptions options = fine();
+  options.spacing.patch_spacing = 0.8;
+  options.spacing.tolerance = 0.5;  // the gap is not resolved before there is light
+  TestBake bake(builder.take(), options);
+  std::set<std::array<double, 2>> lit;
+  for (BakeStatus status = BakeStatus::time_spent; status == BakeStatus::time_spent;) {
+    status = bake->advance(1e-9, {});
+    const auto samples = (*bake).surface().samples();
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const Vec3& at = (*bake).surface().sites()[samples[i].site].position;
+      if (samples[i].normal.z > 0.5 && at.z == 0 && std::abs(at.x - 1) < 1e-6 && std::abs(at.y) < 0.9 &&
+          samples[i].point.x > 1) {
+        const bool is_lit = (*bake).direct()[i].g > 0.02;
+        if (is_lit) {
+          lit.insert({at.x, at.y});
+        }
+        ASSERT_TRUE(is_lit || lit.count({at.x, at.y}) == 0) << at.y;
+      }
+    }
+  }
+  EXPECT_GT(lit.size(), 10u);
 }
 
 TEST(Meanwhile, NewSamplesShowWhatTheyLieBetween) {

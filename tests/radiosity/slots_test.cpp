@@ -44,6 +44,7 @@ TEST(Slots, NoMoreLightIsReceivedThanEntersThroughTheMouths) {
       }
       // Through mouths of 8 together.
       EXPECT_LT(received, 1.5 * k_pi * gap * 8) << gap << " " << refines;
+      EXPECT_GT(received, 0.5 * k_pi * gap * 8) << gap << " " << refines;
     }
   }
 }
@@ -100,6 +101,40 @@ TEST(Slots, WhereTheMeshIsAsFineAsTheGapLightIsAsTheFormulaHasIt) {
     }
   }
   EXPECT_GT(compared, 100u);
+}
+
+// A corner of another surface divides the floor's border, welded from half a millimetre over it: where a sample there
+// looks from is on the floor all the same.
+TEST(Slots, ASiteOffThePlaneLooksFromThePlane) {
+  const double gap = 0.01;
+  SceneBuilder builder;
+  const std::uint32_t black = builder.material(Color(0.0));
+  builder.quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, black);
+  builder.quad({-1, -1, gap}, {-1, 1, gap}, {1, 1, gap}, {1, -1, gap}, black);
+  builder.triangle({1, 0.05, 0.0005}, {1.5, -0.5, -1}, {1.5, 0.5, -1}, black);
+  builder.under_sky(Color(1.0));
+  BakeOptions options = coarse(0.8);
+  options.tolerance = 0.005;  // many rays
+  options.weld_distance = 0.001;
+  TestBake bake(builder.take(), options);
+  ASSERT_EQ(bake.run(), BakeStatus::converged);
+  const auto samples = (*bake).surface().samples();
+  double at_corner = -1, others = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Vec3& at = (*bake).surface().sites()[samples[i].site].position;
+    if (samples[i].facet_normal.z > 0.5 && std::abs(at.x - 1) < 1e-6 && std::abs(at.y) < 0.9) {
+      if (std::abs(at.y - 0.05) < 1e-6) {
+        EXPECT_GT(at.z, 0.0004);
+        at_corner = bake.irradiance(i).g;
+      } else {
+        others += bake.irradiance(i).g;
+        ++count;
+      }
+    }
+  }
+  ASSERT_GT(count, 4u);
+  EXPECT_GT(at_corner, 0.5 * others / static_cast<double>(count));
 }
 
 }  // namespace

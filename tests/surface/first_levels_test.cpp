@@ -69,6 +69,29 @@ TEST(FirstLevels, WhereASurfaceEndsAndNothingAdjoinsNoSiteIsAdded) {
   EXPECT_EQ(made.surface.sites().size(), before);
 }
 
+TEST(FirstLevels, WhereAWallStandsTheFloorIsSampledFinerToo) {
+  SceneBuilder builder(heap());
+  builder.quad({0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0});
+  builder.begin_mesh().receives = false;
+  builder.quad({1, 2, -1}, {3, 2, -1}, {3, 2, 1}, {1, 2, 1});
+  const SurfaceOptions options = graded(0.5, 2);
+  MadeSurface made(builder.take(), options);
+  raise_first_levels(made.surface, options, 0, heap());
+  test::audit(made);
+  std::size_t along = 0;
+  for (std::uint32_t site = 0; site < made.surface.sites().size(); ++site) {
+    const Vec3& at = made.surface.sites()[site].position;
+    if (at.y == 2 && at.x >= 1 && at.x <= 3) {
+      EXPECT_EQ(made.surface.level_of(site), 2u) << at.x;
+      ++along;
+    }
+    if (at.y == 0 || at.x == 0) {
+      EXPECT_EQ(made.surface.level_of(site), 0u);  // nothing adjoins, and what stands there gets no light
+    }
+  }
+  EXPECT_EQ(along, 17u);  // 2 / 0.125 and one
+}
+
 TEST(FirstLevels, AFacetSmallerThanACellGetsNone) {
   for (const double size : {0.2, 0.3}) {  // cells of levels 1 and 2: 0.25 and 0.125
     SceneBuilder builder(heap());
@@ -87,10 +110,10 @@ TEST(FirstLevels, StaysWithinTheLimit) {
   builder.box({0, 0, 0}, {4, 4, 4}, true);
   const SurfaceOptions options = graded(0.5, 2);
   MadeSurface made(builder.take(), options);
-  const auto most = static_cast<std::uint32_t>(made.surface.sites().size() + 50);
-  raise_first_levels(made.surface, options, most, heap());
-  EXPECT_LE(made.surface.sites().size(), most);
-  EXPECT_GT(made.surface.sites().size(), most - 25);
+  const std::size_t before = made.surface.sites().size();
+  raise_first_levels(made.surface, options, static_cast<std::uint32_t>(before + 100), heap());
+  EXPECT_LE(made.surface.sites().size(), before + 50);  // half is left to the light
+  EXPECT_GT(made.surface.sites().size(), before + 25);
   test::audit(made);
 }
 

@@ -106,29 +106,41 @@ TEST(Spacing, CoarsensUntilSitesAreWithinTheLimit) {
   }
 }
 
-TEST(Spacing, WhereCornersAreMostOfTheSitesTheFirstElementsAreFiner) {
-  // The same room with a hundred small boxes, 800 corners more: twice the tolerance of them is what the lattice takes.
+// The same room with small boxes, of eight corners each.
+Scene room_with_boxes(int rows, bool receive) {
   test::SceneBuilder builder(std::pmr::get_default_resource());
   builder.box({0, 0, 0}, {4, 4, 3}, true);
-  for (int k = 0; k < 100; ++k) {
-    const Vec3 at(0.2 + 0.3 * (k % 10), 0.2 + 0.3 * (k / 10), 1);
-    builder.box(at, at + Vec3(0.01), false);
+  builder.begin_mesh().receives = receive;
+  for (int i = 0; i < rows; ++i) {
+    for (int j = 0; j < rows; ++j) {
+      const Vec3 at(0.2 + 3.5 * i / rows, 0.2 + 3.5 * j / rows, 1);
+      builder.box(at, at + Vec3(0.01), false);
+    }
   }
-  const test::MadeFacets made(builder.take());
+  return builder.take();
+}
+
+TEST(Spacing, WhereCornersAreMostOfTheSitesTheFirstElementsAreFiner) {
+  const test::MadeFacets made(room_with_boxes(10, true));  // 808 corners
   SpacingRequest request;
   request.refines = true;
-  const auto levels = [&](double tolerance) {
+  const auto levels = [&](const test::MadeFacets& scene, double tolerance) {
     request.tolerance = tolerance;
-    return choose_spacing(made.scene, made.welded, made.facets, request).element_levels;
+    return choose_spacing(scene.scene, scene.welded, scene.facets, request).element_levels;
   };
-  EXPECT_EQ(levels(0.3), 1u);   // 67 patches, 4 x 67 <= 485 < 16 x 67
-  EXPECT_EQ(levels(0.8), 2u);   // 25 patches, 16 x 25 <= 1292 < 64 x 25
-  EXPECT_EQ(levels(0.02), 0u);  // 1000 patches, 4 x 1000 > 32
+  EXPECT_EQ(levels(made, 0.02), 0u);                                      // 1000 patches, 4 x 1000 > 32
+  EXPECT_EQ(levels(made, 0.3), 1u);                                       // 67 patches, 4 x 67 <= 485 < 16 x 67
+  EXPECT_EQ(levels(made, 0.8), 2u);                                       // 25 patches, 16 x 25 <= 1292 < 64 x 25
+  EXPECT_EQ(levels(test::MadeFacets(room_with_boxes(20, true)), 1), 3u);  // 256 x 20 <= 6416, but three are the most
+  EXPECT_EQ(levels(test::MadeFacets(room_with_boxes(20, false)), 1),
+            0u);  // corners that get no light count for nothing
   request.refines = false;
-  EXPECT_EQ(levels(0.3), 1u);
+  EXPECT_EQ(levels(made, 0.8), 1u);
   request.refines = true;
+  request.patch_spacing = 2;
+  EXPECT_EQ(levels(made, 0.8), 0u);
   request.element_levels = 3;
-  EXPECT_EQ(levels(0.02), 3u);
+  EXPECT_EQ(levels(made, 0.02), 3u);
 }
 
 TEST(Spacing, ContactsAreResolvedAsTheToleranceAsks) {
