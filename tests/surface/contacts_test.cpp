@@ -16,12 +16,9 @@
 namespace radvor {
 namespace {
 
+using test::heap;
 using test::MadeSurface;
 using test::SceneBuilder;
-
-std::pmr::memory_resource* heap() {
-  return std::pmr::get_default_resource();
-}
 
 Scene floor_with_box() {
   SceneBuilder builder(heap());

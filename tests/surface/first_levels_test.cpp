@@ -12,12 +12,9 @@
 namespace radvor {
 namespace {
 
+using test::heap;
 using test::MadeSurface;
 using test::SceneBuilder;
-
-std::pmr::memory_resource* heap() {
-  return std::pmr::get_default_resource();
-}
 
 SurfaceOptions graded(double spacing, std::uint32_t border_levels) {
   SurfaceOptions options{Lattice::hexagonal, spacing, 0, spacing / 32};

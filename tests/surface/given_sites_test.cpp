@@ -10,12 +10,9 @@
 namespace radvor {
 namespace {
 
+using test::heap;
 using test::MadeSurface;
 using test::SceneBuilder;
-
-std::pmr::memory_resource* heap() {
-  return std::pmr::get_default_resource();
-}
 
 Scene floor_with(const std::vector<Vec3>& sites) {
   SceneBuilder builder(heap());

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory_resource>
 #include <numbers>
 #include <string>
 #include <tuple>
@@ -16,6 +17,10 @@
 #include "surface/surface.h"
 
 namespace radvor::test {
+
+inline std::pmr::memory_resource* heap() {
+  return std::pmr::get_default_resource();
+}
 
 enum class Touching { ignored, found, however_small };
 

@@ -9,6 +9,7 @@
 namespace radvor {
 namespace {
 
+using test::heap;
 using test::MadeSurface;
 using test::SceneBuilder;
 
@@ -122,10 +123,6 @@ void check_all(const MadeSurface& made, int points) {
   for (std::uint32_t facet = 0; facet < made.facets.facets.size(); ++facet) {
     check(made, facet, random, points);
   }
-}
-
-std::pmr::memory_resource* heap() {
-  return std::pmr::get_default_resource();
 }
 
 TEST(NearestSite, InConcaveFacetsWithHoles) {

@@ -12,14 +12,11 @@
 namespace radvor {
 namespace {
 
+using test::heap;
 using test::MadeSurface;
 using test::SceneBuilder;
 
 constexpr Lattice k_both[] = {Lattice::hexagonal, Lattice::quadrilateral};
-
-std::pmr::memory_resource* heap() {
-  return std::pmr::get_default_resource();
-}
 
 using Make = Scene (*)();
 

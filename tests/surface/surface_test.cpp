@@ -14,15 +14,12 @@
 namespace radvor {
 namespace {
 
+using test::heap;
 using test::MadeSurface;
 using test::SceneBuilder;
 
 SurfaceOptions spaced(double patch_spacing, std::uint32_t levels, Lattice lattice = Lattice::hexagonal) {
   return {lattice, patch_spacing, levels, 0};
-}
-
-std::pmr::memory_resource* heap() {
-  return std::pmr::get_default_resource();
 }
 
 Scene unit_floor() {
