@@ -28,6 +28,7 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
       skips_{(options.disable & Disable::facing) == 0, (options.disable & Disable::negligible) == 0},
       visibility_(nullptr, Unmake{maker, host}),
       receivers_(&host.memory),
+      in_slot_(&host.memory),
       sights_(&host.memory),
       anchors_(&host.memory),
       records_(&host.memory),

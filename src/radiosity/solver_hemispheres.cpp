@@ -95,7 +95,7 @@ void Solver::look_from(std::uint32_t sample, std::uint32_t rays, Tracer& tracer)
   const std::uint32_t record = records_[sample];
   const double weight = hemispheres_->outlook(record).weight;
   if (weight == 0 || weight * rays > 1) {
-    hemispheres_->trace(record, receivers_[sample], rays, hash(options.seed, record), *surface, tracer);
+    hemispheres_->trace(record, lookout(sample), rays, hash(options.seed, record), *surface, tracer);
   }
   outlooks_[sample] = hemispheres_->outlook(record);
 }

@@ -15,6 +15,10 @@ namespace {
 // Of the way to the middle of its cell: a receiver that has moved so far is another one.
 constexpr double k_moved = 0.25;
 
+// Of that way, where borders look around from: as light from all around may fall off within a part of the cell, and
+// what is wanted is the corner of the plane that fits the cell best.
+constexpr double k_lookout = 0.4;
+
 // In a slot whose walls are `gap` apart, under uniform light from outside: how far from its mouth it is as bright as a
 // cell that reaches `depth` into it is in the mean. At a distance x the form factor of the mouth, a strip seen from its
 // foot, is (1 - x / hypot(x, gap)) / 2; x / hypot(x, gap) is (hypot(depth, gap) - gap) / depth in the mean. Less than
@@ -38,12 +42,22 @@ Receiver Solver::receiver_at(std::uint32_t sample, const Vec3& point) const {
   return {point, point + of.facet_normal * visibility_->lift(), of.normal};
 }
 
+// Where a sample looks around from. Sources' light is exact where it is taken, and the fit makes the best of it; what
+// comes from all around is not asked for twice.
+Receiver Solver::lookout(std::uint32_t sample) const {
+  return in_slot_[sample] != 0
+             ? receivers_[sample]
+             : receiver_at(sample, surface->samples()[sample].point + (k_lookout - k_nudge) * way_inside(sample));
+}
+
 void Solver::place_receivers(std::span<const std::uint32_t> list) {
   receivers_.resize(surface->samples().size());
+  in_slot_.resize(surface->samples().size());
   std::atomic<std::uint64_t> rays{0};
   host.jobs.for_ranges(list.size(), k_samples_a_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       receivers_[list[k]] = receiver_at(list[k], surface->samples()[list[k]].point);
+      in_slot_[list[k]] = 0;
     }
     rays += move_into_slots(list.subspan(begin, end - begin));
   });
@@ -74,6 +88,7 @@ std::uint64_t Solver::move_into_slots(std::span<const std::uint32_t> list) {
     const double gap = edge != k_none && edge >= first_contact ? contacts[edge - first_contact].gap : 0;
     if (gap > 0 && gap < depth && one_sided) {  // else the gap may be on the other side
       receivers_[sample] = inside(sample, gap);
+      in_slot_[sample] = 1;
     } else {
       const Vec3& from = receivers_[sample].lifted;
       asked.push_back(sample);
@@ -91,7 +106,10 @@ std::uint64_t Solver::move_into_slots(std::span<const std::uint32_t> list) {
       const Sightline over{moved.lifted, moved.lifted + 2 * gap * up};
       std::uint8_t still = 0;
       visibility_->blocked({&over, 1}, &still);
-      receivers_[asked[k]] = still != 0 ? moved : receivers_[asked[k]];
+      if (still != 0) {
+        receivers_[asked[k]] = moved;
+        in_slot_[asked[k]] = 1;
+      }
       rays += 2;
     }
   }
@@ -103,6 +121,7 @@ std::uint64_t Solver::move_into_slots(std::span<const std::uint32_t> list) {
 void Solver::follow_receivers(std::span<const SampleOrigin> origins) {
   due_again_.clear();
   renumber(receivers_, origins, Receiver{});
+  renumber(in_slot_, origins, std::uint8_t{0});
   if (looking_) {
     place_receivers(pending_);
     return;
