@@ -12,7 +12,8 @@ namespace {
 
 constexpr double k_pi = 3.14159265358979323846;
 
-constexpr double k_near = 25;  // times its area, the square of the distance that a surface is near from
+constexpr double k_flat = 1e-12;  // of the cosine between two triangles that are one polygon
+constexpr double k_near = 25;     // times its area, the square of the distance that a surface is near from
 
 bool is_dark(const Color& color) {
   return !(color.r > 0 || color.g > 0 || color.b > 0);
@@ -74,11 +75,36 @@ DirectLight::DirectLight(const Scene& scene, const WeldedScene& welded, const Fa
         range.middle /= range.area;
         range.normal = facing / std::max(glm::length(facing), 1e-300);
       }
+      range.panel = panel_of(std::span(emitters_).subspan(first));
       emitting_facets_.push_back(range);
     }
   }
   accuracy_.tolerance = tolerance;
   accuracy_.mean_irradiance = area > 0 && power > 0 ? power / area : 1;
+}
+
+// Counter-clockwise, if the triangles are two that share a side and bulge nowhere.
+std::optional<std::array<Vec3, 4>> DirectLight::panel_of(std::span<const Emitter> emitters) {
+  if (emitters.size() != 2 || !(glm::dot(emitters[0].normal, emitters[1].normal) > 1 - k_flat)) {
+    return {};
+  }
+  const auto &a = emitters[0].corners, &b = emitters[1].corners;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (a[i] != b[(j + 1) % 3] || a[(i + 1) % 3] != b[j]) {
+        continue;
+      }
+      const std::array<Vec3, 4> corners = {a[i], b[(j + 2) % 3], a[(i + 1) % 3], a[(i + 2) % 3]};
+      for (std::size_t k = 0; k < 4; ++k) {
+        const Vec3 side = corners[(k + 1) % 4] - corners[k], next = corners[(k + 2) % 4] - corners[(k + 1) % 4];
+        if (!(glm::dot(glm::cross(side, next), emitters[0].normal) > 0)) {
+          return {};
+        }
+      }
+      return corners;
+    }
+  }
+  return {};
 }
 
 std::uint32_t DirectLight::source_count() const {
@@ -90,8 +116,12 @@ Color DirectLight::irradiance(std::uint32_t source, const Receiver& receiver, Tr
     return irradiance_of_punctual_light(punctual_[source], receiver, tracer, far_, sight);
   }
   source -= static_cast<std::uint32_t>(punctual_.size());
-  Color sum(0.0);
   const EmitterRange& range = emitting_facets_[source];
+  if (range.panel) {
+    const std::span<const Emitter, 2> halves(&emitters_[range.first], 2);
+    return irradiance_of_panel(halves, *range.panel, receiver, tracer, accuracy_, occluders_, sight);
+  }
+  Color sum(0.0);
   for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
     Sight of_triangle;
     sum += irradiance_of_emitter(emitters_[i], receiver, tracer, accuracy_, occluders_, of_triangle);

@@ -2,8 +2,10 @@
 // surfaces that emit. The sky is seen by the rays of gather.h.
 #pragma once
 
+#include <array>
 #include <memory_resource>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/host.h"
@@ -57,7 +59,9 @@ class DirectLight {
     std::uint32_t first, count;
     double area = 0;
     Vec3 middle{0.0}, normal{0.0};
+    std::optional<std::array<Vec3, 4>> panel{};  // two triangles that make up a convex quadrilateral
   };
+  static std::optional<std::array<Vec3, 4>> panel_of(std::span<const Emitter> emitters);
 
   const OccluderTree* occluders_;
   std::pmr::vector<Light> punctual_;

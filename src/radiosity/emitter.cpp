@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <span>
 
 #include "radiosity/clipped_form_factor.h"
 #include "radiosity/form_factor.h"
@@ -38,7 +37,7 @@ constexpr double k_may_stay = 3;
 constexpr double k_clipped = 0.25;
 constexpr std::size_t k_stack = 3 * k_max_depth + 5;
 
-// Up to four parts of one emitter, seen together: 4 rays each make one packet of 16.
+// Up to four parts of one emitter or panel, seen together: 4 rays each make one packet of 16.
 struct Verdict {
   double kernel_seen = 0, kernel_all = 0;
 };
@@ -78,50 +77,46 @@ Sight look(const Emitter& emitter, const Receiver& receiver, Tracer& tracer, std
   return sight;
 }
 
-// Whether rays to sixteen points of the emitter are all blocked; points under the horizon do not count.
-bool looks_dark(const Emitter& emitter, const Receiver& receiver, Tracer& tracer) {
+// Whether rays to sixteen points of the emitter's polygon, which has three corners or four, are all blocked; points
+// under the horizon do not count.
+bool looks_dark(const Emitter& emitter, std::span<const Vec3> polygon, const Receiver& receiver, Tracer& tracer) {
   std::array<Part, 4> parts;
-  std::size_t count = 0;
-  for (const auto& corners : quarter(emitter.corners)) {
-    parts[count++] = {corners, 0, 1};
+  if (polygon.size() == 3) {
+    std::size_t count = 0;
+    for (const auto& corners : quarter({polygon[0], polygon[1], polygon[2]})) {
+      parts[count++] = {corners, 0, 1};
+    }
+  } else {
+    const Vec3 middle = 0.25 * (polygon[0] + polygon[1] + polygon[2] + polygon[3]);
+    for (std::size_t k = 0; k < 4; ++k) {
+      parts[k] = {{middle, polygon[k], polygon[(k + 1) % 4]}, 0, 1};
+    }
   }
   std::array<Verdict, 4> verdicts;
   const Sight sight = look(emitter, receiver, tracer, parts, verdicts);
   return sight.hidden && !sight.open;
 }
 
-}  // namespace
+// A form factor that is worth the tolerance.
+double tolerable_part(const Emitter& emitter, const EmitterAccuracy& accuracy) {
+  return accuracy.tolerance * accuracy.mean_irradiance / luminance(emitter.radiosity);
+}
 
-Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tracer& tracer,
-                            const EmitterAccuracy& accuracy, const OccluderTree* occluders, Sight& sight) {
-  const double whole = polygon_form_factor(receiver.point, receiver.normal, emitter.corners, emitter.normal);
-  ++tracer.counters.form_factors;
-  if (whole <= 0) {
-    if (tracer.skips.facing) {
-      ++tracer.counters.skipped_facing;
-    } else {
-      const Part turned_away{emitter.corners, 0, 0};
-      std::array<Verdict, 4> verdicts;
-      look(emitter, receiver, tracer, std::span(&turned_away, 1), verdicts);
-    }
-    return Color(0.0);
+// What is seen of the emitter's polygon past few occluders, or the dark behind a crowd. whole: its form factor.
+std::optional<double> seen_exactly(const Emitter& emitter, std::span<const Vec3> polygon, double whole,
+                                   const Receiver& receiver, Tracer& tracer, const OccluderTree& occluders) {
+  const auto clip = [&](std::size_t most) {
+    return clipped_form_factor(receiver, polygon, emitter.normal, whole, most, tracer, occluders);
+  };
+  if (const auto seen = clip(k_few_clipped)) {
+    return seen;
   }
-  // A form factor that is worth the tolerance.
-  const double tolerable = accuracy.tolerance * accuracy.mean_irradiance / luminance(emitter.radiosity);
+  return looks_dark(emitter, polygon, receiver, tracer) ? 0 : clip(k_max_clipped);
+}
+
+// By rays alone. whole: the emitter's form factor, more than 0.
+double seen_by_rays(const Emitter& emitter, const Receiver& receiver, Tracer& tracer, double tolerable, Sight& sight) {
   const double may_stay = k_may_stay * tolerable;
-  if (occluders != nullptr && whole > k_clipped * tolerable) {  // exact, and cheaper than the rays of a penumbra
-    const auto clip = [&](std::size_t most) {
-      return clipped_form_factor(receiver, emitter.corners, emitter.normal, whole, most, tracer, *occluders);
-    };
-    auto seen = clip(k_few_clipped);
-    if (!seen) {
-      seen = looks_dark(emitter, receiver, tracer) ? 0 : clip(k_max_clipped);
-    }
-    if (seen) {
-      sight = {*seen > 0, *seen < whole};
-      return emitter.radiosity * *seen;
-    }
-  }
   double visible = 0;
   std::array<Part, k_stack> stack;  // parts to be quartered
   std::size_t size = 0;
@@ -173,7 +168,63 @@ Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tr
     }
     settle(std::span(children.data(), count));
   }
-  return emitter.radiosity * visible;
+  return visible;
+}
+
+// Rays to an emitter that turns its back, or lies under the horizon, where that is no reason to cast none.
+void look_in_vain(const Emitter& emitter, const Receiver& receiver, Tracer& tracer) {
+  if (tracer.skips.facing) {
+    ++tracer.counters.skipped_facing;
+    return;
+  }
+  const Part turned_away{emitter.corners, 0, 0};
+  std::array<Verdict, 4> verdicts;
+  look(emitter, receiver, tracer, std::span(&turned_away, 1), verdicts);
+}
+
+}  // namespace
+
+Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tracer& tracer,
+                            const EmitterAccuracy& accuracy, const OccluderTree* occluders, Sight& sight) {
+  const double whole = polygon_form_factor(receiver.point, receiver.normal, emitter.corners, emitter.normal);
+  ++tracer.counters.form_factors;
+  if (whole <= 0) {
+    look_in_vain(emitter, receiver, tracer);
+    return Color(0.0);
+  }
+  const double tolerable = tolerable_part(emitter, accuracy);
+  if (occluders != nullptr && whole > k_clipped * tolerable) {  // exact, and cheaper than the rays of a penumbra
+    if (const auto seen = seen_exactly(emitter, emitter.corners, whole, receiver, tracer, *occluders)) {
+      sight = {*seen > 0, *seen < whole};
+      return emitter.radiosity * *seen;
+    }
+  }
+  return emitter.radiosity * seen_by_rays(emitter, receiver, tracer, tolerable, sight);
+}
+
+Color irradiance_of_panel(std::span<const Emitter, 2> halves, std::span<const Vec3> polygon, const Receiver& receiver,
+                          Tracer& tracer, const EmitterAccuracy& accuracy, const OccluderTree* occluders,
+                          Sight& sight) {
+  const double whole = polygon_form_factor(receiver.point, receiver.normal, polygon, halves[0].normal);
+  ++tracer.counters.form_factors;
+  if (whole <= 0) {
+    look_in_vain(halves[0], receiver, tracer);
+    look_in_vain(halves[1], receiver, tracer);
+    return Color(0.0);
+  }
+  if (occluders != nullptr && whole > k_clipped * tolerable_part(halves[0], accuracy)) {
+    if (const auto seen = seen_exactly(halves[0], polygon, whole, receiver, tracer, *occluders)) {
+      sight = {*seen > 0, *seen < whole};
+      return halves[0].radiosity * *seen;
+    }
+  }
+  Color sum(0.0);
+  for (const Emitter& half : halves) {
+    Sight of_half;
+    sum += irradiance_of_emitter(half, receiver, tracer, accuracy, nullptr, of_half);
+    sight.add(of_half);
+  }
+  return sum;
 }
 
 }  // namespace radvor

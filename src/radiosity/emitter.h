@@ -1,9 +1,11 @@
-// Surfaces that emit, as light sources: the exact form factor of what the receiver sees of each triangle. Few occluders
-// are clipped away exactly; where there are many the triangle is split where rays disagree.
+// Surfaces that emit, as light sources: the exact form factor of what the receiver sees of each triangle, or of two
+// that are a convex quadrilateral. Few occluders are clipped away exactly; where there are many the triangle is split
+// where rays disagree.
 #pragma once
 
 #include <array>
 #include <memory_resource>
+#include <span>
 #include <vector>
 
 #include "radiosity/occluder_tree.h"
@@ -32,5 +34,10 @@ struct EmitterAccuracy {
 /// not there, rather than blocked.
 Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tracer& tracer,
                             const EmitterAccuracy& accuracy, const OccluderTree* occluders, Sight& sight);
+
+/// The same of two emitters of one plane and radiosity that make up a convex polygon, counter-clockwise, together: what
+/// stands between is looked for once. Where that is too much rays tell, of each half.
+Color irradiance_of_panel(std::span<const Emitter, 2> halves, std::span<const Vec3> polygon, const Receiver& receiver,
+                          Tracer& tracer, const EmitterAccuracy& accuracy, const OccluderTree* occluders, Sight& sight);
 
 }  // namespace radvor

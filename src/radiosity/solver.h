@@ -154,11 +154,11 @@ class Solver {
   std::uint32_t next_blocks(std::uint32_t per_thread) const;
   double unshot_luminance() const;
   void place_receivers(std::span<const std::uint32_t> samples);
+  void move_to_lookouts(std::span<const std::uint32_t> samples);
   void follow_receivers(std::span<const SampleOrigin> origins);
   std::uint64_t move_into_slots(std::span<const std::uint32_t> samples);
   Vec3 way_inside(std::uint32_t sample) const;
   Receiver receiver_at(std::uint32_t sample, const Vec3& point) const;
-  Receiver lookout(std::uint32_t sample) const;
   void report_convergence();
 
   std::pmr::vector<std::uint32_t> occluders_;  // welded triangle of each triangle that blocks
@@ -174,7 +174,7 @@ class Solver {
   std::optional<Gather> hemispheres_;
 
   std::pmr::vector<Receiver> receivers_;
-  std::pmr::vector<std::uint8_t> in_slot_;        // of each sample: its receiver stands where a slot's light is its mean
+  std::pmr::vector<std::uint8_t> in_slot_;  // of each sample: it looks from where a slot's light is its mean
   std::optional<ReceiverBlocks> blocks_;
   std::pmr::vector<std::uint64_t> sights_;        // of each sample: what it sees of the sources
   std::pmr::vector<SampleOrigin> anchors_;        // of each sample that refinement made: the samples it lies between

@@ -114,7 +114,7 @@ void Solver::shoot_standout() {
   over_blocks(0, blocks_->count(), [&](std::uint32_t sample, Tracer& tracer) {
     LinkMaker maker(tree, occluder_tree_ ? &*occluder_tree_ : nullptr, {}, &host.memory);
     std::pmr::vector<Link> links(&host.memory);
-    maker.make(lookout(sample), tree.roots(), tracer, links);
+    maker.make(receivers_[sample], tree.roots(), tracer, links);
     incoming_[sample] = Color(0.0);
     for (const Link& link : links) {
       incoming_[sample] += sent_along(link, light);

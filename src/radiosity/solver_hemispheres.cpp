@@ -79,6 +79,7 @@ void Solver::begin_level() {
   for (std::uint32_t k = 0; k < looking.size(); ++k) {
     records_[looking[k]] = first_record_ + k;
   }
+  move_to_lookouts(looking);
   blocks_.emplace(*surface, receivers_, looking, host);
   if (!sounded_out_) {
     sound_out_noise();
@@ -95,7 +96,7 @@ void Solver::look_from(std::uint32_t sample, std::uint32_t rays, Tracer& tracer)
   const std::uint32_t record = records_[sample];
   const double weight = hemispheres_->outlook(record).weight;
   if (weight == 0 || weight * rays > 1) {
-    hemispheres_->trace(record, lookout(sample), rays, hash(options.seed, record), *surface, tracer);
+    hemispheres_->trace(record, receivers_[sample], rays, hash(options.seed, record), *surface, tracer);
   }
   outlooks_[sample] = hemispheres_->outlook(record);
 }

@@ -1,4 +1,5 @@
-// Where samples look from: near their sites, but where something covers a cell more closely than the cell is deep.
+// Where samples look from: near their sites for sources, farther in for what is all around; but where something covers
+// a cell more closely than the cell is deep, where the light of the cell is met.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -40,14 +41,6 @@ Vec3 Solver::way_inside(std::uint32_t sample) const {
 Receiver Solver::receiver_at(std::uint32_t sample, const Vec3& point) const {
   const Sample& of = surface->samples()[sample];
   return {point, point + of.facet_normal * visibility_->lift(), of.normal};
-}
-
-// Where a sample looks around from. Sources' light is exact where it is taken, and the fit makes the best of it; what
-// comes from all around is not asked for twice.
-Receiver Solver::lookout(std::uint32_t sample) const {
-  return in_slot_[sample] != 0
-             ? receivers_[sample]
-             : receiver_at(sample, surface->samples()[sample].point + (k_lookout - k_nudge) * way_inside(sample));
 }
 
 void Solver::place_receivers(std::span<const std::uint32_t> list) {
@@ -116,6 +109,35 @@ std::uint64_t Solver::move_into_slots(std::span<const std::uint32_t> list) {
   return rays;
 }
 
+// Samples that are to look around move on, inside their cells, unless they are in slots or something stands in the way.
+// Sources' light has been taken: that is exact where it is taken, and the fit makes the best of it, but what comes from
+// all around is not asked for again.
+void Solver::move_to_lookouts(std::span<const std::uint32_t> list) {
+  std::atomic<std::uint64_t> rays{0};
+  host.jobs.for_ranges(list.size(), k_samples_a_task, [&](std::size_t begin, std::size_t end) {
+    std::pmr::vector<std::uint32_t> moving(&host.memory);
+    std::pmr::vector<Sightline> ways(&host.memory);
+    for (std::size_t k = begin; k < end; ++k) {
+      const Vec3 way = way_inside(list[k]);
+      if (in_slot_[list[k]] == 0 && glm::length(way) > 8 * visibility_->lift()) {
+        const Vec3& from = receivers_[list[k]].lifted;
+        moving.push_back(list[k]);
+        ways.push_back({from, from + (k_lookout - k_nudge) * way});
+      }
+    }
+    std::pmr::vector<std::uint8_t> blocked(moving.size(), &host.memory);
+    visibility_->blocked(ways, blocked.data());
+    rays += moving.size();
+    for (std::size_t k = 0; k < moving.size(); ++k) {
+      Receiver& receiver = receivers_[moving[k]];
+      if (blocked[k] == 0) {
+        receiver = receiver_at(moving[k], receiver.point + (ways[k].to - ways[k].from));
+      }
+    }
+  });
+  stats_.rays += rays;
+}
+
 // After a refinement. Each looks from where its light was taken. Until there are hemispheres, the light of a sample
 // that is to look from elsewhere now, because its cell is no longer as deep, is due again.
 void Solver::follow_receivers(std::span<const SampleOrigin> origins) {
@@ -127,6 +149,7 @@ void Solver::follow_receivers(std::span<const SampleOrigin> origins) {
     return;
   }
   const std::pmr::vector<Receiver> before(receivers_, &host.memory);
+  const std::pmr::vector<std::uint8_t> in_slot_before(in_slot_, &host.memory);
   std::pmr::vector<std::uint32_t> all(origins.size(), &host.memory);
   std::iota(all.begin(), all.end(), 0u);
   place_receivers(all);
@@ -141,6 +164,7 @@ void Solver::follow_receivers(std::span<const SampleOrigin> origins) {
       pending_.push_back(i);
     } else {
       receivers_[i] = before[i];
+      in_slot_[i] = in_slot_before[i];
     }
   }
 }

@@ -1,12 +1,15 @@
 // Light sources against closed forms, most of them those of CIE 171:2006.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
 #include "plates.h"
 #include "radiosity/emitter.h"
 #include "radiosity/punctual_light.h"
+#include "rooms.h"
+#include "test_bake.h"
 
 namespace radvor {
 namespace {
@@ -180,6 +183,41 @@ TEST(Emitter, UnoccludedIsExactAndCutByTheHorizon) {
   const auto upper = square_emitter({1, -1, 0}, {1, -1, 1}, {1, 1, 1}, {1, 1, 0});
   const Receiver floor = receiver_at({0, 0, 0}, {0, 0, 1}, open);
   EXPECT_NEAR(glow(wall, floor, open, {}), glow(upper, floor, open, {}), 1e-12);
+}
+
+// Whatever shape two triangles have together, what they shine past a plate is the sum of both.
+TEST(DirectLight, TwoTrianglesShineAsOneOnlyWhereTheyAreConvexTogether) {
+  const Vec3 a(-1, -1, 2), b(1, -1, 2), c(1, 1, 2);
+  const Vec3 outlines[3] = {{-1, 1, 2}, {1.5, 3, 2}, {1, 3, 2}};  // a square, a dart, a triangle in two
+  Plates plates;
+  plates.add({-.5, -.5, 1}, {.5, -.5, 1}, {.5, .5, 1}, {-.5, .5, 1});
+  const BruteForceVisibility visibility = plates.visibility();
+  for (const Vec3& d : outlines) {
+    SceneBuilder builder;
+    const std::uint32_t floor = builder.material(Color(0.0)), lamp = builder.material(Color(0.0), Color(1.0));
+    builder.quad({-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}, floor);
+    builder.quad({-.5, -.5, 1}, {.5, -.5, 1}, {.5, .5, 1}, {-.5, .5, 1}, floor);
+    builder.triangle(c, b, a, lamp);
+    builder.triangle(d, c, a, lamp);
+    BakeOptions options;
+    options.spacing.patch_spacing = 0.5;
+    options.spacing.refines = false;
+    TestBake bake(builder.take(), options);
+    ASSERT_EQ(bake.run(), BakeStatus::converged);
+    const auto samples = (*bake).surface().samples();
+    std::size_t compared = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      if (samples[i].point.z == 0 && samples[i].normal.z > 0.5) {
+        const std::vector<Emitter> halves = square_emitter(c, b, a, d);
+        ASSERT_LT(halves[1].normal.z, 0);
+        const Receiver receiver = receiver_at(samples[i].point, {0, 0, 1}, visibility);
+        const double expected = k_pi * glow(halves, receiver, visibility, {}, plates);
+        EXPECT_NEAR((*bake).direct()[i].r, expected, 1e-4) << samples[i].point.x << " " << samples[i].point.y;
+        ++compared;
+      }
+    }
+    EXPECT_GT(compared, 50);
+  }
 }
 
 }  // namespace

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double k_pi = 3.14159265358979323846;
 
-// A floor of 2 by 8 beside a wall of little height, under a sky of radiance one. At a distance x from the wall the floor
-// sees it under an angle whose tangent is height / x, and has pi (1 + x / hypot(x, height)) / 2.
+// A floor of 2 by 8 beside a wall of little height, under a sky of radiance one. At a distance x from the wall the
+// floor sees it under an angle whose tangent is height / x, and has pi (1 + x / hypot(x, height)) / 2.
 double mean_beside_a_wall(double height) {
   return k_pi * 0.5 * (1 + (std::hypot(2, height) - height) / 2);
 }
@@ -49,6 +49,34 @@ TEST(Lookout, ACornerThatIsDarkInLessThanItsCellDoesNotDarkenTheCell) {
     ASSERT_NEAR(area, 16, 1e-9);
     EXPECT_NEAR(received / area, mean_beside_a_wall(height), 0.02 * k_pi) << height;
   }
+}
+
+TEST(Lookout, NothingIsLookedFromInsideOfWhatStandsInTheWay) {
+  // The block crosses the floor's middle, a tenth from its border, and contacts are not asked for.
+  SceneBuilder builder;
+  const std::uint32_t black = builder.material(Color(0.0));
+  builder.quad({0, -4, 0}, {2, -4, 0}, {2, 4, 0}, {0, 4, 0}, black);
+  builder.quad({0, -4, 0}, {0, 4, 0}, {0, 4, 0.02}, {0, -4, 0.02}, black);
+  builder.box({0.1, -5, -0.5}, {1.9, 5, 0.5}, false, black);
+  builder.under_sky(Color(1.0));
+  BakeOptions options;
+  options.tolerance = options.spacing.tolerance = 0.02;
+  options.spacing.patch_spacing = 2;
+  options.spacing.refines = false;
+  options.disable = Disable::intersections;
+  TestBake bake(builder.take(), options);
+  ASSERT_EQ(bake.run(), BakeStatus::converged);
+  const Surface& surface = (*bake).surface();
+  std::size_t compared = 0;
+  for (std::size_t i = 0; i < surface.samples().size(); ++i) {
+    const Sample& sample = surface.samples()[i];
+    const Vec3& at = surface.sites()[sample.site].position;
+    if (at.x == 0 && at.z == 0 && std::abs(at.y) < 3 && sample.normal.z > 0.5) {
+      EXPECT_GT(bake.irradiance(i).g, 0.2 * k_pi) << at.y;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 1u);
 }
 
 }  // namespace

@@ -375,6 +375,42 @@ TEST(ExactEmitter, NothingOfTheSmallestOccluderIsMissed) {
               rectangle_factor(x, -.5, .5, -.5, .5, 2) - rectangle_factor(x, .024, .026, .014, .018, 2), 1e-11);
 }
 
+TEST(ExactEmitter, APanelIsItsHalvesTogether) {
+  std::mt19937 random(11);
+  int seen_in_part = 0, crowds = 0;
+  for (int round = 0; round < 200; ++round) {
+    const Plates plates = soup(random, round % 4 == 0 ? 200 : 8);
+    const OccluderTree tree = tree_of(plates);
+    const BruteForceVisibility visibility = plates.visibility();
+    const Polygon light = rectangle(-.5, uniform(random, -.4, .5), -.5, .5, 2);
+    const double area = light[2].x - light[0].x;
+    const std::array<Emitter, 2> halves = {Emitter{{light[0], light[1], light[2]}, k_down, Color(1.0), 0.5 * area},
+                                           Emitter{{light[0], light[2], light[3]}, k_down, Color(1.0), 0.5 * area}};
+    const Receiver receiver = receiver_at(point_in_box(random, {-1, -1, 0}, {1, 1, 0.2}), k_up, visibility);
+    EmitterAccuracy accuracy;
+    accuracy.mean_irradiance = 0.05;
+    Tracer apart(visibility), together(visibility);
+    double expected = 0;
+    for (const Emitter& half : halves) {
+      Sight sight;
+      expected += irradiance_of_emitter(half, receiver, apart, accuracy, &tree, sight).r;
+    }
+    Sight sight;
+    const double found = irradiance_of_panel(halves, light, receiver, together, accuracy, &tree, sight).r;
+    if (apart.counters.rays == 0 && together.counters.rays == 0) {  // exact both times
+      EXPECT_NEAR(found, expected, 1e-9) << round;
+      EXPECT_EQ(sight.open, found > 0) << round;
+      const double whole = polygon_form_factor(receiver.point, receiver.normal, light, k_down);
+      seen_in_part += found > 0 && found < whole ? 1 : 0;
+    } else {
+      ++crowds;
+      EXPECT_NEAR(found, expected, 0.1) << round;
+    }
+  }
+  EXPECT_GT(seen_in_part, 50);
+  EXPECT_GT(crowds, 10);
+}
+
 TEST(ExactEmitter, CutByTheHorizonBeforeWhatLiesUnderIt) {
   // A wall half under the floor's level, on the floor: what is under it is not there, and the floor hides none of it.
   Plates floor;

@@ -26,8 +26,9 @@ Scene room_of_lamps() {
     builder.box({x, 0.3, 0.35}, {x + 0.02, 0.8, 0.4}, false, grey);
   }
   const std::uint32_t lamp = builder.material(Color(0.0), Color(10.0, 8.0, 6.0));
+  const std::uint32_t dim = builder.material(Color(0.0), Color(5.0, 4.0, 3.0));
   builder.quad({1.2, 0.5, 0.95}, {1.2, 0.9, 0.95}, {1.6, 0.9, 0.95}, {1.6, 0.5, 0.95}, lamp);
-  builder.quad({0.2, 1.1, 0.5}, {0.4, 1.1, 0.5}, {0.4, 1.3, 0.5}, {0.2, 1.3, 0.5}, lamp);
+  builder.quad({0.2, 1.1, 0.5}, {0.4, 1.1, 0.5}, {0.4, 1.3, 0.5}, {0.2, 1.3, 0.5}, dim);
   Light bulb, spot;
   bulb.type = LightType::point;
   bulb.position = {1.7, 1.2, 0.6};
