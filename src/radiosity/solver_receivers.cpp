@@ -138,8 +138,8 @@ void Solver::move_to_lookouts(std::span<const std::uint32_t> list) {
   stats_.rays += rays;
 }
 
-// After a refinement. Each looks from where its light was taken. Until there are hemispheres, the light of a sample
-// that is to look from elsewhere now, because its cell is no longer as deep, is due again.
+// After a refinement. Each looks from where its light was taken last. Until there are hemispheres, the light of a
+// sample that is to look from elsewhere now, because its cell is no longer as deep, is due again.
 void Solver::follow_receivers(std::span<const SampleOrigin> origins) {
   due_again_.clear();
   renumber(receivers_, origins, Receiver{});

@@ -1,5 +1,5 @@
-// Where a sample gathers light, unless its cell lies in a slot (Solver::place_receivers): moved from its site into its
-// cell, because a site on a border lies on its neighbour's plane, where form factors are singular.
+// Where a sample takes the light of sources, unless its cell lies in a slot (Solver::place_receivers): moved from its
+// site into its cell, because a site on a border lies on its neighbour's plane, where form factors are singular.
 #pragma once
 
 #include <span>

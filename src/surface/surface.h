@@ -45,9 +45,9 @@ struct Site {
 };
 
 struct Sample {
-  Vec3 point;   ///< receiver point: on `facet`, nudged from the site into its cell; not lifted. In slots light is taken
-                ///< elsewhere
-  Vec3 normal;  ///< unit shading normal on this side
+  Vec3 point;         ///< receiver point: on `facet`, nudged from the site into its cell; not lifted. In slots
+                      ///< light is taken elsewhere, and what is all around farther inside
+  Vec3 normal;        ///< unit shading normal on this side
   Vec3 facet_normal;  ///< unit normal of `facet` on this side: the direction to lift along
   double area = 0;    ///< sum over its shares
   std::uint32_t site;
