@@ -16,8 +16,8 @@ namespace {
 // Of the way to the middle of its cell: a receiver that has moved so far is another one.
 constexpr double k_moved = 0.25;
 
-// Of that way, where borders look around from: as light from all around may fall off within a part of the cell, and
-// what is wanted is the corner of the plane that fits the cell best.
+// Of that way, where borders look around from: light from all around may fall off within a part of the cell, and what
+// is wanted is the corner of the plane that fits the cell best. Chosen by scenes (docs/transport.md, "Lookouts").
 constexpr double k_lookout = 0.4;
 
 // In a slot whose walls are `gap` apart, under uniform light from outside: how far from its mouth it is as bright as a
