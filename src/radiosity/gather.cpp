@@ -197,10 +197,9 @@ void Gather::catch_up(Record& record, const Surface& surface, const ShareMoves& 
   }
 }
 
-Color Gather::gather(std::uint32_t index, std::span<const glm::vec3> radiosity) const {
-  const Record& record = records_[index];
+Color Gather::gather(std::uint32_t index, std::span<const glm::vec3> radiosity, std::uint32_t link_count) const {
   std::array<double, 3> sum{};
-  for (const std::uint32_t share : record.links) {
+  for (const std::uint32_t share : std::span(records_[index].links).first(link_count)) {
     if (share == k_none) {
       continue;
     }
@@ -209,7 +208,7 @@ Color Gather::gather(std::uint32_t index, std::span<const glm::vec3> radiosity) 
     sum[1] += sent.g;
     sum[2] += sent.b;
   }
-  return record.outlook.weight * Color(sum[0], sum[1], sum[2]);
+  return Color(sum[0], sum[1], sum[2]) / static_cast<double>(link_count);
 }
 
 double Gather::spread(std::uint32_t index, std::span<const glm::vec3> radiosity) const {

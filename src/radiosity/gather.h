@@ -59,8 +59,16 @@ class Gather {
   /// is left; until then nothing may be followed. Before ties are aligned.
   bool catch_up(const Surface& surface, std::uint64_t links);
 
-  /// Irradiance from all that the record's links shoot. radiosity: one a share, W m^-2.
-  Color gather(std::uint32_t record, std::span<const glm::vec3> radiosity) const;
+  std::uint32_t link_count(std::uint32_t record) const {
+    return static_cast<std::uint32_t>(records_[record].links.size());
+  }
+
+  /// Irradiance from all that the record's links shoot, as the first link_count (a power of two) of them tell: the
+  /// beginning of a net is one. radiosity: one a share, W m^-2.
+  Color gather(std::uint32_t record, std::span<const glm::vec3> radiosity, std::uint32_t link_count) const;
+  Color gather(std::uint32_t record, std::span<const glm::vec3> radiosity) const {
+    return gather(record, radiosity, link_count(record));
+  }
 
   /// How much what the record's rays bring differs from ray to ray: the standard deviation over the mean, all channels
   /// as one; 0 where they bring nothing.

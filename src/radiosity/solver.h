@@ -125,6 +125,7 @@ class Solver {
   void lose(std::uint32_t share, const Color& radiosity);
   bool begin_bounce();
   void add_series(double ratio_of_all);
+  std::uint32_t links_worth(std::uint32_t sample) const;
   void bounce();
   double noise_of(std::uint32_t record, double spread) const;
   void measure_spreads();

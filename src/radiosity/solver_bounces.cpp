@@ -1,5 +1,6 @@
 // Reflections: what stands out first, by itself; then everything together, bounce by bounce.
 #include <algorithm>
+#include <cmath>
 
 #include "radiosity/fate.h"
 #include "radiosity/links.h"
@@ -17,6 +18,9 @@ constexpr double k_stands_out = 4.0 / 3;
 
 // No more shots once they have cast this share of all rays before: beside a patch of many small shares one is dear.
 constexpr double k_most_spent = 0.25;
+
+// Bounces that bring a sample this share of its light, or more, read all of its links.
+constexpr double k_in_full = 1.0 / 32;
 
 constexpr double k_most_ratio = 0.97;  // of a bounce to the one before, as a series
 
@@ -198,6 +202,21 @@ void Solver::add_series(double ratio_of_all) {
   }
 }
 
+// How many of a sample's links the bounce under way is worth, by what the last one brought: so many that it adds as much
+// noise as one that brings k_in_full of the sample's light adds with all of them.
+std::uint32_t Solver::links_worth(std::uint32_t sample) const {
+  std::uint32_t links = hemispheres_->link_count(records_[sample]);
+  if (bounces_ == 0 || !skips_.negligible) {
+    return links;
+  }
+  const double brought = luminance(incoming_before_[sample]) / luminance(direct[sample] + indirect[sample]);
+  const double worth = links * std::pow(brought / k_in_full, 1 / k_net_order);
+  while (links > k_least_rays && links > worth) {
+    links /= 2;
+  }
+  return links;
+}
+
 // All shares together, on some blocks of receivers.
 void Solver::bounce() {
   if (block_ == 0 && !begin_bounce()) {
@@ -210,7 +229,7 @@ void Solver::bounce() {
   }
   const std::uint32_t end = next_blocks(in_slices ? 32 : 256);
   over_blocks(block_, end, [&](std::uint32_t sample, Tracer&) {
-    incoming_[sample] = hemispheres_->gather(records_[sample], radiosity_);
+    incoming_[sample] = hemispheres_->gather(records_[sample], radiosity_, links_worth(sample));
   });
   block_ = end;
   if (block_ >= blocks_->count()) {

@@ -144,6 +144,23 @@ TEST_F(Links, StayWhereNothingIsDivided) {
   }
 }
 
+// Bounces that matter less read fewer of a record's links.
+TEST_F(Links, TheFirstOnesAreThoseOfFewerRays) {
+  trace(0);
+  constexpr std::uint32_t k_fewer = 32;
+  const std::uint32_t first = gather.add(static_cast<std::uint32_t>(receivers.size()));
+  Tracer tracer(*visibility);
+  std::vector<glm::vec3> radiosity;
+  for (std::uint32_t s = 0; s < made.surface.shares().size(); ++s) {
+    radiosity.emplace_back(to_unit(mix(s)));
+  }
+  for (std::uint32_t r = 0; r < receivers.size(); ++r) {
+    gather.trace(first + r, receivers[r], k_fewer, k_seed + r, made.surface, tracer);
+    EXPECT_EQ(gather.gather(r, radiosity, k_fewer), gather.gather(first + r, radiosity)) << "receiver " << r;
+    EXPECT_NE(gather.gather(r, radiosity, k_fewer), gather.gather(r, radiosity)) << "receiver " << r;
+  }
+}
+
 // Where a ray brings 1 or nothing.
 TEST_F(Links, SpreadIsThatOfABernoulliTrial) {
   trace(0);
