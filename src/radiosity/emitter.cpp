@@ -98,8 +98,8 @@ bool looks_dark(const Emitter& emitter, std::span<const Vec3> polygon, const Rec
 }
 
 // A form factor that is worth the tolerance.
-double tolerable_part(const Emitter& emitter, const EmitterAccuracy& accuracy) {
-  return accuracy.tolerance * accuracy.mean_irradiance / luminance(emitter.radiosity);
+double tolerable_part(const Emitter& emitter, const EmitterAccuracy& accuracy, const Receiver& receiver) {
+  return receiver.leeway * accuracy.tolerance * accuracy.mean_irradiance / luminance(emitter.radiosity);
 }
 
 // What is seen of the emitter's polygon past few occluders, or the dark behind a crowd. whole: its form factor.
@@ -192,7 +192,7 @@ Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tr
     look_in_vain(emitter, receiver, tracer);
     return Color(0.0);
   }
-  const double tolerable = tolerable_part(emitter, accuracy);
+  const double tolerable = tolerable_part(emitter, accuracy, receiver);
   if (occluders != nullptr && whole > k_clipped * tolerable) {  // exact, and cheaper than the rays of a penumbra
     if (const auto seen = seen_exactly(emitter, emitter.corners, whole, receiver, tracer, *occluders)) {
       sight = {*seen > 0, *seen < whole};
@@ -212,7 +212,7 @@ Color irradiance_of_panel(std::span<const Emitter, 2> halves, std::span<const Ve
     look_in_vain(halves[1], receiver, tracer);
     return Color(0.0);
   }
-  if (occluders != nullptr && whole > k_clipped * tolerable_part(halves[0], accuracy)) {
+  if (occluders != nullptr && whole > k_clipped * tolerable_part(halves[0], accuracy, receiver)) {
     if (const auto seen = seen_exactly(halves[0], polygon, whole, receiver, tracer, *occluders)) {
       sight = {*seen > 0, *seen < whole};
       return halves[0].radiosity * *seen;

@@ -175,6 +175,7 @@ class Solver {
   std::optional<Gather> hemispheres_;
 
   std::pmr::vector<Receiver> receivers_;
+  double mean_area_ = 0;                    // of samples, when receivers were placed last
   std::pmr::vector<std::uint8_t> in_slot_;  // of each sample: it looks from where a slot's light is its mean
   std::optional<ReceiverBlocks> blocks_;
   std::pmr::vector<std::uint64_t> sights_;        // of each sample: what it sees of the sources

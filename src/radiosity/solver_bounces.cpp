@@ -202,8 +202,8 @@ void Solver::add_series(double ratio_of_all) {
   }
 }
 
-// How many of a sample's links the bounce under way is worth, by what the last one brought: so many that it adds as much
-// noise as one that brings k_in_full of the sample's light adds with all of them.
+// How many of a sample's links the bounce under way is worth, by what the last one brought: so many that it adds as
+// much noise as one that brings k_in_full of the sample's light adds with all of them.
 std::uint32_t Solver::links_worth(std::uint32_t sample) const {
   std::uint32_t links = hemispheres_->link_count(records_[sample]);
   if (bounces_ == 0 || !skips_.negligible) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <numeric>
 
 #include "radiosity/method.h"
 #include "radiosity/solver.h"
@@ -19,6 +18,9 @@ constexpr double k_moved = 0.25;
 // Of that way, where borders look around from: light from all around may fall off within a part of the cell, and what
 // is wanted is the corner of the plane that fits the cell best. Chosen by scenes (docs/transport.md, "Lookouts").
 constexpr double k_lookout = 0.4;
+
+// Receivers' leeway is at most so much, or one in so much: a vertex of a small triangle is looked at, too.
+constexpr double k_most_leeway = 8;
 
 // In a slot whose walls are `gap` apart, under uniform light from outside: how far from its mouth it is as bright as a
 // cell that reaches `depth` into it is in the mean. At a distance x the form factor of the mouth, a strip seen from its
@@ -38,14 +40,18 @@ Vec3 Solver::way_inside(std::uint32_t sample) const {
   return way - glm::dot(way, of.facet_normal) * of.facet_normal;
 }
 
+// Of all ways to spend rays, as many as the root of the area asks for leave the least area-weighted squared error: so
+// what is small may be off by more.
 Receiver Solver::receiver_at(std::uint32_t sample, const Vec3& point) const {
   const Sample& of = surface->samples()[sample];
-  return {point, point + of.facet_normal * visibility_->lift(), of.normal};
+  const double leeway = std::clamp(std::sqrt(mean_area_ / of.area), 1 / k_most_leeway, k_most_leeway);
+  return {point, point + of.facet_normal * visibility_->lift(), of.normal, leeway};
 }
 
 void Solver::place_receivers(std::span<const std::uint32_t> list) {
   receivers_.resize(surface->samples().size());
   in_slot_.resize(surface->samples().size());
+  mean_area_ = receiving_area() / static_cast<double>(surface->samples().size());
   std::atomic<std::uint64_t> rays{0};
   host.jobs.for_ranges(list.size(), k_samples_a_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
@@ -150,10 +156,16 @@ void Solver::follow_receivers(std::span<const SampleOrigin> origins) {
   }
   const std::pmr::vector<Receiver> before(receivers_, &host.memory);
   const std::pmr::vector<std::uint8_t> in_slot_before(in_slot_, &host.memory);
-  std::pmr::vector<std::uint32_t> all(origins.size(), &host.memory);
-  std::iota(all.begin(), all.end(), 0u);
-  place_receivers(all);
+  std::pmr::vector<std::uint32_t> placed(&host.memory);  // the others are, and are not covered
   for (std::uint32_t i = 0; i < origins.size(); ++i) {
+    const Receiver here = receiver_at(i, surface->samples()[i].point);
+    if (!origins[i].kept || in_slot_[i] != 0 || here.point != before[i].point || here.lifted != before[i].lifted ||
+        here.normal != before[i].normal) {
+      placed.push_back(i);
+    }
+  }
+  place_receivers(placed);
+  for (const std::uint32_t i : placed) {
     if (!origins[i].kept) {
       continue;
     }

@@ -1,8 +1,11 @@
 // Light sources against closed forms, most of them those of CIE 171:2006.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <random>
 
 #include "plates.h"
@@ -146,6 +149,39 @@ TEST(Emitter, HalfPlanePenumbra) {
     EXPECT_NEAR(glow(emitters, receiver_at({at[i], 1e-4, 0}, {0, 0, 1}, visibility), visibility, accuracy, plates),
                 exact[i], 0.01 * 0.0367)
         << at[i];
+  }
+}
+
+// By rays, across the penumbra of a half-plane: what a receiver's leeway saves, and what it may cost.
+TEST(Emitter, LeewayIsRaysForError) {
+  Plates plates;
+  const Vec3 along(0.31, 0.95, 0), back(-0.95, 0.31, 0), up(0, 0, 1);  // as no side of the emitter, or of its parts
+  plates.add(up + 100.0 * (back - along), up - 100.0 * along, up + 100.0 * along, up + 100.0 * (back + along));
+  const auto visibility = plates.visibility();
+  const auto emitters = square_emitter({-.5, -.5, 2}, {-.5, .5, 2}, {.5, .5, 2}, {.5, -.5, 2});
+  EmitterAccuracy accuracy;
+  accuracy.mean_irradiance = 0.04;
+  accuracy.tolerance = 0.01;
+  std::uint64_t rays_before = std::numeric_limits<std::uint64_t>::max();
+  for (const double leeway : {0.125, 1.0, 8.0}) {
+    Tracer tracer(visibility);
+    double squares = 0;
+    constexpr int k_receivers = 100;
+    for (int i = 0; i < k_receivers; ++i) {
+      Receiver receiver = receiver_at({(i + 0.5) / k_receivers - 0.5, 1e-4, 0}, {0, 0, 1}, visibility);
+      const double exact = glow(emitters, receiver, visibility, accuracy, plates);
+      receiver.leeway = leeway;
+      double by_rays = 0;
+      for (const Emitter& emitter : emitters) {
+        Sight sight;
+        by_rays += irradiance_of_emitter(emitter, receiver, tracer, accuracy, nullptr, sight).r;
+      }
+      squares += (by_rays - exact) * (by_rays - exact) / k_receivers;
+    }
+    // Where sixteen rays agree no more are asked, so less leeway than 1 gains little.
+    EXPECT_LT(std::sqrt(squares), std::max(1.0, leeway) * accuracy.tolerance * accuracy.mean_irradiance) << leeway;
+    EXPECT_LT(tracer.counters.rays, rays_before / 2) << leeway;
+    rays_before = tracer.counters.rays;
   }
 }
 
