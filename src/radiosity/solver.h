@@ -159,6 +159,7 @@ class Solver {
   void follow_receivers(std::span<const SampleOrigin> origins);
   std::uint64_t move_into_slots(std::span<const std::uint32_t> samples);
   Vec3 way_inside(std::uint32_t sample) const;
+  double leeway_of(double area) const;
   Receiver receiver_at(std::uint32_t sample, const Vec3& point) const;
   void report_convergence();
 

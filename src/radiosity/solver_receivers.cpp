@@ -42,10 +42,13 @@ Vec3 Solver::way_inside(std::uint32_t sample) const {
 
 // Of all ways to spend rays, as many as the root of the area asks for leave the least area-weighted squared error: so
 // what is small may be off by more.
+double Solver::leeway_of(double area) const {
+  return std::clamp(std::sqrt(mean_area_ / area), 1 / k_most_leeway, k_most_leeway);
+}
+
 Receiver Solver::receiver_at(std::uint32_t sample, const Vec3& point) const {
   const Sample& of = surface->samples()[sample];
-  const double leeway = std::clamp(std::sqrt(mean_area_ / of.area), 1 / k_most_leeway, k_most_leeway);
-  return {point, point + of.facet_normal * visibility_->lift(), of.normal, leeway};
+  return {point, point + of.facet_normal * visibility_->lift(), of.normal, leeway_of(of.area)};
 }
 
 void Solver::place_receivers(std::span<const std::uint32_t> list) {

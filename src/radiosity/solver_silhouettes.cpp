@@ -55,14 +55,16 @@ void Solver::judge_shadows() {
     const auto matters = [&](double found, double expected) {
       return expected > found && score_of(found, expected, mean, area) > noticed;
     };
-    const auto from_source = [&](const Receiver& receiver) {
+    const auto from_source = [&](const Receiver& to) {
       Sight sight;
-      return sum(light_->irradiance(cast.source, receiver, tracer, sight)) / 3;
+      return sum(light_->irradiance(cast.source, to, tracer, sight)) / 3;
     };
     if (!matters(0, lit)) {
       return {};
     }
-    const double found = from_source(cast.receiver);
+    Receiver receiver = cast.receiver;
+    receiver.leeway = leeway_of(area);
+    const double found = from_source(receiver);
     if (!matters(found, lit)) {
       return {};
     }
@@ -75,7 +77,7 @@ void Solver::judge_shadows() {
         return {};
       }
     }
-    return Shadowed{cast.facet, cast.back, cast.at, area, punctual_light(cast.receiver, tracer)};
+    return Shadowed{cast.facet, cast.back, cast.at, area, punctual_light(receiver, tracer)};
   };
   constexpr std::uint32_t k_block = 64;
   const auto count = static_cast<std::uint32_t>((casts_.size() + k_block - 1) / k_block);
