@@ -28,6 +28,7 @@ Vec3 centre(const std::array<Vec3, 3>& t) {
 
 constexpr std::size_t k_max_clipped = 64;  // occluders; rays where there are more
 constexpr std::size_t k_few_clipped = 12;  // exact without any ray; behind a crowd sixteen blocked rays mean dark
+constexpr double k_exact_leeway = 1.5;     // with more of it a crowd's rays are cheaper, and good enough
 constexpr int k_max_depth = 7;
 // Where rays disagree, of the tolerance: a part of a part worth less stays whole. A penumbra has some 2^depth such
 // parts with independent errors, of which a fraction is in doubt. (By 1, staircase takes twice the rays for the same
@@ -111,7 +112,10 @@ std::optional<double> seen_exactly(const Emitter& emitter, std::span<const Vec3>
   if (const auto seen = clip(k_few_clipped)) {
     return seen;
   }
-  return looks_dark(emitter, polygon, receiver, tracer) ? 0 : clip(k_max_clipped);
+  if (looks_dark(emitter, polygon, receiver, tracer)) {
+    return 0;
+  }
+  return receiver.leeway <= k_exact_leeway ? clip(k_max_clipped) : std::nullopt;
 }
 
 // By rays alone. whole: the emitter's form factor, more than 0.
