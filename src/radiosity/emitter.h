@@ -28,10 +28,10 @@ struct EmitterAccuracy {
 };
 
 /// Irradiance from one emitter. With `occluders`, those between it and the receiver are clipped away, which is exact to
-/// rounding, while they are few. Without, or where they are many, rays: a part of it whose rays disagree is quartered
-/// until what is at stake is under three times the tolerance's share of the mean irradiance (the whole: one), by the
-/// receiver's leeway; the last parts take the share of their points that is seen, weighted by the kernel. Points under
-/// the receiver's horizon are not there, rather than blocked.
+/// rounding, while they are few; a crowd, where the receiver has little leeway. Else rays: a part of it whose rays
+/// disagree is quartered until what is at stake is under three times the tolerance's share of the mean irradiance (the
+/// whole: one), times the receiver's leeway; the last parts take the share of their points that is seen, weighted by
+/// the kernel. Points under the receiver's horizon are not there, rather than blocked.
 Color irradiance_of_emitter(const Emitter& emitter, const Receiver& receiver, Tracer& tracer,
                             const EmitterAccuracy& accuracy, const OccluderTree* occluders, Sight& sight);
 

@@ -198,6 +198,7 @@ void Gather::catch_up(Record& record, const Surface& surface, const ShareMoves& 
 }
 
 Color Gather::gather(std::uint32_t index, std::span<const glm::vec3> radiosity, std::uint32_t link_count) const {
+  assert(link_count > 0 && link_count <= records_[index].links.size());
   std::array<double, 3> sum{};
   for (const std::uint32_t share : std::span(records_[index].links).first(link_count)) {
     if (share == k_none) {

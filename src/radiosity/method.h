@@ -18,7 +18,7 @@ inline constexpr double k_first_rays = 32, k_rays = 1.5;
 inline constexpr double k_least_rays = 16, k_most_rays = 8192;
 
 /// Standard errors of a hemisphere of one ray that noise explains; those of a net of N rays fall by N^(-3/4).
-inline constexpr double k_noise = 2, k_net_order = 0.75;
+inline constexpr double k_noise = 2, k_net_power = 0.75;
 
 /// Light from all around is taken over so far, times the root of the tolerance, relative to the distance of what is
 /// seen (Ward's a, but linear interpolation errs by its square).

@@ -11,7 +11,7 @@ struct Receiver {
   Vec3 point;   ///< on the surface: form factors are taken here
   Vec3 lifted;  ///< off the surface by Visibility::lift(): rays start here
   Vec3 normal;  ///< unit shading normal
-  /// How far its light may be off, where that of the average receiver may by 1.
+  /// How far light of emitting surfaces may be off, where that of the average receiver may by 1.
   double leeway = 1;
 };
 

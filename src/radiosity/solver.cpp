@@ -43,6 +43,7 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
       radiosity_(&host.memory),
       incoming_(&host.memory),
       incoming_before_(&host.memory),
+      links_read_(&host.memory),
       settled_(&host.memory),
       shot_alone_(&host.memory),
       from_standouts_(&host.memory),

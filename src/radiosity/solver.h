@@ -125,7 +125,7 @@ class Solver {
   void lose(std::uint32_t share, const Color& radiosity);
   bool begin_bounce();
   void add_series(double ratio_of_all);
-  std::uint32_t links_worth(std::uint32_t sample) const;
+  void choose_links(std::uint32_t sample);
   void bounce();
   double noise_of(std::uint32_t record, double spread) const;
   void measure_spreads();
@@ -195,6 +195,7 @@ class Solver {
   std::pmr::vector<glm::vec3> radiosity_;         // of each share: what is being shot
   std::pmr::vector<Color> incoming_;              // irradiance of the bounce under way, each sample
   std::pmr::vector<Color> incoming_before_;       // of the one before
+  std::pmr::vector<std::uint32_t> links_read_;    // of each sample's record, by it
   std::pmr::vector<Color> settled_;               // of each sample: from all around, freed of noise; for the mesh
   std::pmr::vector<Color> shot_alone_;            // radiosity of each share that shot in a standout; may be empty
   std::pmr::vector<Color> from_standouts_;        // irradiance of each sample by them; may be empty

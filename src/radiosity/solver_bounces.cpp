@@ -19,8 +19,10 @@ constexpr double k_stands_out = 4.0 / 3;
 // No more shots once they have cast this share of all rays before: beside a patch of many small shares one is dear.
 constexpr double k_most_spent = 0.25;
 
-// Bounces that bring a sample this share of its light, or more, read all of its links.
+// Bounces that bring a sample this share of its light, or more, read all of its links. The others are chosen for two
+// bounces in a row: their ratio is that of the light.
 constexpr double k_in_full = 1.0 / 32;
+constexpr std::uint32_t k_same_links = 2;
 
 constexpr double k_most_ratio = 0.97;  // of a bounce to the one before, as a series
 
@@ -42,9 +44,11 @@ void Solver::account() {
   }
   incoming_.assign(receivers_.size(), Color(0.0));
   pending_.clear();
+  links_read_.assign(records_.size(), 0);
   for (std::uint32_t i = 0; i < records_.size(); ++i) {
     if (records_[i] != k_none) {
       pending_.push_back(i);
+      links_read_[i] = hemispheres_->link_count(records_[i]);
     }
   }
   blocks_.emplace(*surface, receivers_, pending_, host);
@@ -157,7 +161,8 @@ bool Solver::begin_bounce() {
   // So put that light which is not a number ends too.
   const double least = skips_.negligible ? k_share_left_unshot * options.tolerance : k_lost_to_rounding;
   const bool allowed = options.max_bounces == 0 || bounces_ < options.max_bounces;
-  if (!(left / (1 - ratio) > least * received)) {
+  const bool comparable = options.max_bounces != 0 || bounces_ < k_same_links || bounces_ % k_same_links == 0;
+  if (!(left / (1 - ratio) > least * received) && comparable) {
     if (skips_.negligible && left > 0 && allowed) {
       stats_.skipped_negligible += pending_.size();  // of one bounce more
     }
@@ -202,19 +207,18 @@ void Solver::add_series(double ratio_of_all) {
   }
 }
 
-// How many of a sample's links the bounce under way is worth, by what the last one brought: so many that it adds as
-// much noise as one that brings k_in_full of the sample's light adds with all of them.
-std::uint32_t Solver::links_worth(std::uint32_t sample) const {
-  std::uint32_t links = hemispheres_->link_count(records_[sample]);
-  if (bounces_ == 0 || !skips_.negligible) {
-    return links;
-  }
-  const double brought = luminance(incoming_before_[sample]) / luminance(direct[sample] + indirect[sample]);
-  const double worth = links * std::pow(brought / k_in_full, 1 / k_net_order);
-  while (links > k_least_rays && links > worth) {
+// Chooses how many of a sample's links this bounce and the next are worth, by the two before them: so many that one
+// such bounce adds as much noise as one that brings k_in_full of the sample's light adds with all links. They never
+// become more again: of a sample's first links either half might have been the first, so those of them that are kept
+// are off by chance alone, but what would be read again only where little was found would be found too little.
+void Solver::choose_links(std::uint32_t sample) {
+  const double brought = std::max(luminance(incoming_before_[sample]), luminance(incoming_[sample]));
+  const double part = brought / luminance(direct[sample] + indirect[sample]);
+  const double worth = hemispheres_->link_count(records_[sample]) * std::pow(part / k_in_full, 1 / k_net_power);
+  std::uint32_t& links = links_read_[sample];
+  while (links > k_least_rays && links >= 2 * worth) {
     links /= 2;
   }
-  return links;
 }
 
 // All shares together, on some blocks of receivers.
@@ -228,8 +232,14 @@ void Solver::bounce() {
     incoming_.resize(incoming_before_.size());
   }
   const std::uint32_t end = next_blocks(in_slices ? 32 : 256);
-  over_blocks(block_, end, [&](std::uint32_t sample, Tracer&) {
-    incoming_[sample] = hemispheres_->gather(records_[sample], radiosity_, links_worth(sample));
+  const bool chooses = skips_.negligible && bounces_ > 0 && bounces_ % k_same_links == 0;
+  over_blocks(block_, end, [&](std::uint32_t sample, Tracer& tracer) {
+    if (chooses) {
+      choose_links(sample);
+    }
+    const std::uint32_t links = links_read_[sample];
+    tracer.counters.skipped_negligible += links < hemispheres_->link_count(records_[sample]) ? 1 : 0;
+    incoming_[sample] = hemispheres_->gather(records_[sample], radiosity_, links);
   });
   block_ = end;
   if (block_ >= blocks_->count()) {

@@ -21,7 +21,7 @@ constexpr std::uint32_t k_soundings = 32;  // blocks of samples
 // the mean). They are a net, so it falls with the 3/4th power of their number; but what few of them meet is met by
 // chance, and falls with the root alone.
 double Solver::noise_of(std::uint32_t record, double spread) const {
-  return spread * std::pow(hemispheres_->outlook(record).weight, k_net_order) * std::pow(1 + spread * spread, 0.25);
+  return spread * std::pow(hemispheres_->outlook(record).weight, k_net_power) * std::pow(1 + spread * spread, 0.25);
 }
 
 double Solver::noise_of_sky(std::uint32_t sample) const {

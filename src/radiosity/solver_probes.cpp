@@ -90,7 +90,7 @@ std::pmr::vector<std::uint32_t> Solver::wrong_between() const {
     light[i] += first_bounce_[i];
   }
   const double mean = mean_of(light);
-  const double noise = looking_ ? k_noise * std::pow(probe_rays(), -k_net_order) : 0;
+  const double noise = looking_ ? k_noise * std::pow(probe_rays(), -k_net_power) : 0;
   struct Wrong {
     double score;
     std::array<std::uint32_t, 3> samples;

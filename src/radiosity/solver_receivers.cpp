@@ -40,8 +40,7 @@ Vec3 Solver::way_inside(std::uint32_t sample) const {
   return way - glm::dot(way, of.facet_normal) * of.facet_normal;
 }
 
-// Of all ways to spend rays, as many as the root of the area asks for leave the least area-weighted squared error: so
-// what is small may be off by more.
+// Every sample may add as much to the area-weighted squared error.
 double Solver::leeway_of(double area) const {
   return std::clamp(std::sqrt(mean_area_ / area), 1 / k_most_leeway, k_most_leeway);
 }
@@ -159,11 +158,10 @@ void Solver::follow_receivers(std::span<const SampleOrigin> origins) {
   }
   const std::pmr::vector<Receiver> before(receivers_, &host.memory);
   const std::pmr::vector<std::uint8_t> in_slot_before(in_slot_, &host.memory);
-  std::pmr::vector<std::uint32_t> placed(&host.memory);  // the others are, and are not covered
+  std::pmr::vector<std::uint32_t> placed(&host.memory);  // the others are, and are in no slot
   for (std::uint32_t i = 0; i < origins.size(); ++i) {
     const Receiver here = receiver_at(i, surface->samples()[i].point);
-    if (!origins[i].kept || in_slot_[i] != 0 || here.point != before[i].point || here.lifted != before[i].lifted ||
-        here.normal != before[i].normal) {
+    if (!origins[i].kept || in_slot_[i] != 0 || here.point != before[i].point || here.lifted != before[i].lifted) {
       placed.push_back(i);
     }
   }

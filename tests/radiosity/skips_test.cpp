@@ -43,13 +43,27 @@ Scene room_of_lamps() {
   return builder.take();
 }
 
+// A white room lit by a spot on its floor alone: what surrounds the spot has all of its light from later bounces.
+Scene room_with_a_spot() {
+  SceneBuilder builder;
+  builder.box({0, 0, 0}, {2, 1.5, 1}, true, builder.material(Color(0.85, 0.8, 0.75)));
+  Light spot;
+  spot.type = LightType::spot;
+  spot.position = {1.1, 0.8, 0.95};
+  spot.direction = {0, 0, -1};
+  spot.outer_angle = 0.35;
+  spot.color = Color(1.0);
+  builder.scene.lights = {spot};
+  return builder.take();
+}
+
 struct Baked {
   std::vector<Color> light;
   std::vector<double> areas;
   BakeStats stats;
 };
 
-Baked bake_without(std::uint32_t skip, bool refines, std::uint32_t max_bounces = 0) {
+Baked bake_without(std::uint32_t skip, bool refines, std::uint32_t max_bounces = 0, Scene (*scene)() = room_of_lamps) {
   BakeOptions options;
   options.tolerance = options.spacing.tolerance = refines ? 5 * k_tolerance : k_tolerance;
   options.spacing.patch_spacing = 0.3;
@@ -57,7 +71,7 @@ Baked bake_without(std::uint32_t skip, bool refines, std::uint32_t max_bounces =
   options.spacing.refines = refines;
   options.disable = skip;
   options.max_bounces = max_bounces;
-  TestBake bake(room_of_lamps(), options);
+  TestBake bake(scene(), options);
   EXPECT_EQ(bake.run(), BakeStatus::converged);
   Baked baked;
   baked.stats = bake->stats();
@@ -104,6 +118,21 @@ TEST(Skips, NegligibleMovesLessThanATenthOfTheTolerance) {
     EXPECT_GT(by, 0);  // it does leave something undone
     EXPECT_LT(by, 0.1 * k_tolerance);
   }
+}
+
+// And is off by chance alone: too much here, too little there.
+TEST(Skips, NegligibleReadsLessOfWhatBringsLittle) {
+  const Baked on = bake_without(0, false, 100, room_with_a_spot);
+  const Baked off = bake_without(Disable::negligible, false, 100, room_with_a_spot);
+  EXPECT_GT(on.stats.skipped_negligible, on.light.size());  // nothing else is skipped here but the last bounce
+  ASSERT_EQ(on.light.size(), off.light.size());
+  double brighter = 0, all = 0;
+  for (std::size_t i = 0; i < on.light.size(); ++i) {
+    brighter += on.areas[i] * (on.light[i].g - off.light[i].g);
+    all += on.areas[i] * off.light[i].g;
+  }
+  EXPECT_LT(moved(on, off), 0.1 * k_tolerance);
+  EXPECT_LT(std::abs(brighter), 0.02 * k_tolerance * all);
 }
 
 TEST(Skips, NegligibleEndsBouncesThatAreLeftToThemselves) {
