@@ -114,7 +114,7 @@ std::optional<double> seen_exactly(const Emitter& emitter, std::span<const Vec3>
   }
   const bool by_rays = receiver.leeway > k_exact_leeway;
   if (by_rays && polygon.size() == 3) {
-    return {};  // whose first rays would be the same sixteen
+    return {};  // whose first rays would be the same sixteen, or four where it is worth less
   }
   if (looks_dark(emitter, polygon, receiver, tracer)) {
     return 0;

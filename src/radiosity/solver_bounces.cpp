@@ -19,8 +19,8 @@ constexpr double k_stands_out = 4.0 / 3;
 // No more shots once they have cast this share of all rays before: beside a patch of many small shares one is dear.
 constexpr double k_most_spent = 0.25;
 
-// Bounces that bring a sample this share of its light, or more, read all of its links. The others are chosen for two
-// bounces in a row: their ratio is that of the light.
+// Bounces read all of a sample's links while this share of its light, or more, is still to come. How many the others
+// read is chosen for two in a row, which are to be compared.
 constexpr double k_in_full = 1.0 / 32;
 constexpr std::uint32_t k_same_links = 2;
 
@@ -161,7 +161,8 @@ bool Solver::begin_bounce() {
   // So put that light which is not a number ends too.
   const double least = skips_.negligible ? k_share_left_unshot * options.tolerance : k_lost_to_rounding;
   const bool allowed = options.max_bounces == 0 || bounces_ < options.max_bounces;
-  const bool comparable = options.max_bounces != 0 || bounces_ < k_same_links || bounces_ % k_same_links == 0;
+  const bool comparable =
+      options.max_bounces != 0 || !skips_.negligible || bounces_ < k_same_links || bounces_ % k_same_links == 0;
   if (!(left / (1 - ratio) > least * received) && comparable) {
     if (skips_.negligible && left > 0 && allowed) {
       stats_.skipped_negligible += pending_.size();  // of one bounce more
@@ -207,13 +208,18 @@ void Solver::add_series(double ratio_of_all) {
   }
 }
 
-// Chooses how many of a sample's links this bounce and the next are worth, by the two before them: so many that one
-// such bounce adds as much noise as one that brings k_in_full of the sample's light adds with all links. They never
-// become more again: of a sample's first links either half might have been the first, so those of them that are kept
-// are off by chance alone, but what would be read again only where little was found would be found too little.
+// Chooses how many of a sample's links this bounce and the next are worth, by the two before them: so many that what is
+// still to come, as a series, is as uncertain as k_in_full of the sample's light is by all links. While light still
+// rises, or is not there yet, that is not known. The number never rises again: of a sample's first links either half
+// might have been the first, so those of them that are kept are off by chance alone, but what would be read again only
+// where little was found would be found too little.
 void Solver::choose_links(std::uint32_t sample) {
-  const double brought = std::max(luminance(incoming_before_[sample]), luminance(incoming_[sample]));
-  const double part = brought / luminance(direct[sample] + indirect[sample]);
+  const double last = luminance(incoming_before_[sample]), before = luminance(incoming_[sample]);
+  if (!(last < before)) {
+    return;
+  }
+  const double to_come = last / (1 - std::min(last / before, k_most_ratio));
+  const double part = to_come / luminance(direct[sample] + indirect[sample]);
   const double worth = hemispheres_->link_count(records_[sample]) * std::pow(part / k_in_full, 1 / k_net_power);
   std::uint32_t& links = links_read_[sample];
   while (links > k_least_rays && links >= 2 * worth) {
