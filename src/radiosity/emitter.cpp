@@ -112,14 +112,10 @@ std::optional<double> seen_exactly(const Emitter& emitter, std::span<const Vec3>
   if (const auto seen = clip(k_few_clipped)) {
     return seen;
   }
-  const bool by_rays = receiver.leeway > k_exact_leeway;
-  if (by_rays && polygon.size() == 3) {
-    return {};  // whose first rays would be the same sixteen, or four where it is worth less
-  }
   if (looks_dark(emitter, polygon, receiver, tracer)) {
     return 0;
   }
-  return by_rays ? std::nullopt : clip(k_max_clipped);
+  return receiver.leeway > k_exact_leeway ? std::nullopt : clip(k_max_clipped);
 }
 
 // By rays alone. whole: the emitter's form factor, more than 0.

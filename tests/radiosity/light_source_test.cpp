@@ -10,6 +10,7 @@
 
 #include "plates.h"
 #include "radiosity/emitter.h"
+#include "radiosity/form_factor.h"
 #include "radiosity/punctual_light.h"
 #include "rooms.h"
 #include "test_bake.h"
@@ -183,6 +184,49 @@ TEST(Emitter, LeewayIsRaysForError) {
     EXPECT_LT(tracer.counters.rays, rays_before / 2) << leeway;
     rays_before = tracer.counters.rays;
   }
+}
+
+// Strips hide half of a square. Closed form: it shines through the gaps between them, rectangles on its plane.
+TEST(Emitter, ACrowdIsClippedWhereThereIsLittleLeeway) {
+  constexpr int k_strips = 20;  // two triangles each: more than few, not too many to be clipped
+  constexpr double k_pitch = 0.5 / k_strips;
+  Plates plates;
+  for (int i = 0; i < k_strips; ++i) {
+    const double x = -0.25 + k_pitch * i;
+    plates.add({x, -100, 1}, {x + k_pitch / 2, -100, 1}, {x + k_pitch / 2, 100, 1}, {x, 100, 1});
+  }
+  const auto visibility = plates.visibility();
+  const OccluderTree occluders({plates.positions, plates.corners}, std::pmr::get_default_resource());
+  const auto emitters = square_emitter({-.5, -.5, 2}, {-.5, .5, 2}, {.5, .5, 2}, {.5, -.5, 2});
+  EmitterAccuracy accuracy;
+  accuracy.mean_irradiance = 0.04;
+  accuracy.tolerance = 0.01;
+  Receiver receiver = receiver_at({0, 1e-4, 0}, {0, 0, 1}, visibility);  // sees all on z = 1 twice as large on z = 2
+  double exact = 0;
+  for (int i = 0; i < k_strips; ++i) {
+    const double low = -0.5 + 2 * k_pitch * (i + 0.5), high = low + k_pitch;
+    const Vec3 gap[] = {{low, -.5, 2}, {low, .5, 2}, {high, .5, 2}, {high, -.5, 2}};
+    exact += polygon_form_factor(receiver.point, receiver.normal, gap, {0, 0, -1});
+  }
+  const auto light = [&](double leeway, std::uint64_t& rays) {
+    receiver.leeway = leeway;
+    Tracer tracer(visibility);
+    double sum = 0;
+    for (const Emitter& emitter : emitters) {
+      Sight sight;
+      sum += irradiance_of_emitter(emitter, receiver, tracer, accuracy, &occluders, sight).r;
+      EXPECT_TRUE(sight.open && sight.hidden) << leeway;
+    }
+    rays = tracer.counters.rays;
+    return sum;
+  };
+  std::uint64_t rays = 0;
+  for (const double leeway : {0.125, 1.0}) {
+    EXPECT_NEAR(light(leeway, rays), exact, 1e-9) << leeway;
+    EXPECT_LE(rays, 32u) << leeway;  // sixteen a triangle, whether it is all dark
+  }
+  EXPECT_NEAR(light(8, rays), exact, 8 * accuracy.tolerance * accuracy.mean_irradiance);
+  EXPECT_GT(rays, 32u);
 }
 
 TEST(Emitter, ObstructedSquaresAreaMean) {

@@ -141,7 +141,7 @@ TEST(Skips, NegligibleLeavesTheSeriesAtTheEndRight) {
   const Baked on = bake_without(0, false, 0, room_with_a_spot);
   const Baked off = bake_without(Disable::negligible, false, 0, room_with_a_spot);
   ASSERT_EQ(on.light.size(), off.light.size());
-  EXPECT_LT(moved(on, off), 0.1 * k_tolerance);
+  EXPECT_LT(moved(on, off), 0.01 * k_tolerance);
 }
 
 TEST(Skips, NegligibleEndsBouncesThatAreLeftToThemselves) {
