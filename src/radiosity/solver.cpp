@@ -7,7 +7,6 @@
 
 #include "radiosity/method.h"
 #include "scene/find_contacts.h"
-#include "surface/first_levels.h"
 
 namespace radvor {
 
@@ -66,7 +65,6 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
     find_contacts(scene, *welded, *facets, ContactLimits::at_spacing(finest_spacing(spacing)), host);
   }
   surface.emplace(scene, *welded, *facets, spacing, host);
-  raise_first_levels(*surface, spacing, options.spacing.max_sites, &host.memory);
 
   std::pmr::vector<std::uint32_t> corners(&host.memory);
   for (std::uint32_t t = 0; t < welded->triangles.size(); ++t) {

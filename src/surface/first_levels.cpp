@@ -51,14 +51,9 @@ class Borders {
 
 }  // namespace
 
-void raise_first_levels(Surface& surface, const SurfaceOptions& options, std::uint32_t max_sites,
-                        std::pmr::memory_resource* memory) {
-  const std::size_t first = surface.sites().size();
-  raise_borders(surface, options, max_sites, memory);
-  resolve_gaps(surface, options, max_sites, memory);
-  if (surface.sites().size() > first) {
-    surface.refine({});
-  }
+void raise_first_levels(Surface& surface, const SurfaceOptions& options, std::pmr::memory_resource* memory) {
+  raise_borders(surface, options, options.max_sites, memory);
+  resolve_gaps(surface, options, options.max_sites, memory);
 }
 
 void raise_borders(Surface& surface, const SurfaceOptions& options, std::uint32_t max_sites,

@@ -11,9 +11,8 @@
 namespace radvor {
 
 /// Raises sites on sharp edges by options.border_levels, and on contacts until the spacing there is the gap that makes
-/// them, options.contact_spacing or the smallest there is; then makes the triangles anew. max_sites: 0: no limit.
-void raise_first_levels(Surface& surface, const SurfaceOptions& options, std::uint32_t max_sites,
-                        std::pmr::memory_resource* memory);
+/// them, options.contact_spacing or the smallest there is.
+void raise_first_levels(Surface& surface, const SurfaceOptions& options, std::pmr::memory_resource* memory);
 
 /// Raises, to each level in turn, the sites on sharp edges and contacts of facets that are larger than a cell of that
 /// level; not where a surface ends and no other begins. That ends at four times the sites there were, and 8192, and at

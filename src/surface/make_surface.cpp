@@ -23,7 +23,7 @@ class SurfaceMaker {
   explicit SurfaceMaker(SurfaceParts& parts)
       : parts_(parts), facets_(parts.memory), retired_(parts.memory), inner_sites_(parts.memory) {}
 
-  void make() {
+  void draft() {
     parts_.sites = parts_.borders.list();
     take_given_sites();
     for (std::uint32_t facet = 0; facet < parts_.records.size(); ++facet) {
@@ -38,30 +38,52 @@ class SurfaceMaker {
     build_meshes([&](std::uint32_t k) { return parts_.input(facets_[k]); });
     number();
     place_border_sites();
+  }
+
+  void finish(const ChangedFacets& changed) {
+    build_anew(changed);
+    free_retired();
+    facets_.clear();
+    for (std::uint32_t facet = 0; facet < parts_.records.size(); ++facet) {
+      if (parts_.records[facet].first_share != k_none) {
+        facets_.push_back(facet);
+      }
+    }
+    make_room();
     fill_shares();
     make_samples(parts_);
   }
 
   std::pmr::vector<SampleOrigin> remake(const ChangedFacets& changed) {
+    SurfaceBefore before(parts_, changed.facets);
+    build_anew(changed);
+    make_room();
+    copy_shares(before);
+    fill_shares();
+    make_samples(parts_);
+    auto origins = find_origins(parts_, before, facets_);
+    free_retired();
+    return origins;
+  }
+
+ private:
+  void build_anew(const ChangedFacets& changed) {
     facets_.assign(changed.facets.begin(), changed.facets.end());
-    SurfaceBefore before(parts_, facets_);
     build_meshes([&](std::uint32_t k) {
       FacetInput input = parts_.input(facets_[k]);
       input.inner = changed.inner_of(k);
       return input;
     });
     number();
-    copy_shares(before);
-    fill_shares();
-    make_samples(parts_);
-    auto origins = find_origins(parts_, before, facets_);
+  }
+
+  void free_retired() {
     for (const std::uint32_t mesh : retired_) {
       parts_.meshes[mesh].reset();
     }
-    return origins;
+    retired_.clear();
   }
 
- private:
   // Those that the host gave become sites after the borders', each inside of its facet.
   void take_given_sites() {
     const std::pmr::vector<GivenSite> found =
@@ -184,8 +206,12 @@ class SurfaceMaker {
       parts_.host.log(LogLevel::info, "%u of %zu facets are too thin to be triangulated anew and keep their triangles",
                       degenerate, parts_.records.size());
     }
-    parts_.shares.resize(shares);
-    parts_.details.resize(shares);
+    share_count_ = shares;
+  }
+
+  void make_room() {
+    parts_.shares.resize(share_count_);
+    parts_.details.resize(share_count_);
   }
 
   // False where the facet is degenerate.
@@ -271,7 +297,7 @@ class SurfaceMaker {
     copy(before.details.receiver, parts_.details.receiver);
   }
 
-  // Of the facets built now.
+  // Of facets_, which drafts are still there of.
   void fill_shares() {
     constexpr double k_task = 2000;
     const EvenRanges ranges(
@@ -363,6 +389,7 @@ class SurfaceMaker {
   }
 
   SurfaceParts& parts_;
+  std::uint32_t share_count_ = 0;
   std::pmr::vector<std::uint32_t> facets_;       // built now
   std::pmr::vector<std::uint32_t> retired_;      // meshes that others took the place of
   std::pmr::vector<std::uint32_t> inner_sites_;  // per welded vertex, once one is needed
@@ -370,8 +397,12 @@ class SurfaceMaker {
 
 }  // namespace
 
-void make_surface(SurfaceParts& parts) {
-  SurfaceMaker(parts).make();
+void draft_surface(SurfaceParts& parts) {
+  SurfaceMaker(parts).draft();
+}
+
+void finish_surface(SurfaceParts& parts, const ChangedFacets& changed) {
+  SurfaceMaker(parts).finish(changed);
 }
 
 std::pmr::vector<SampleOrigin> remake_surface(SurfaceParts& parts, const ChangedFacets& changed) {

@@ -110,6 +110,8 @@ SurfaceOptions choose_spacing(const Scene& scene, const WeldedScene& welded, con
   }
   options.border_levels = request.refines ? k_border_levels : 0;
   options.contact_spacing = k_contact_spacing * request.tolerance * std::sqrt(extent.area);
+  options.raises_first = true;
+  options.max_sites = request.max_sites;
   if (request.element_levels == 0) {
     while (options.element_levels > 0 &&
            scaled_down(options.patch_spacing, options.element_levels) < request.min_spacing) {

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/floating_point.h"
 #include "surface/facet_location.h"
+#include "surface/first_levels.h"
 #include "surface/locate_together.h"
 #include "surface/make_surface.h"
 #include "surface/refinement.h"
@@ -27,7 +28,11 @@ Surface::Surface(const Scene& scene, const WeldedScene& welded, const Facets& fa
   std::pmr::polymorphic_allocator<> allocator(memory_);
   state_ = allocator.new_object<State>(scene, welded, facets, options, host);
   try {
-    make_surface(*state_);
+    draft_surface(*state_);
+    if (options.raises_first) {
+      raise_first_levels(*this, options, memory_);
+    }
+    finish_surface(*state_, state_->refinement ? state_->refinement->take_changes() : ChangedFacets(memory_));
   } catch (...) {
     allocator.delete_object(state_);
     throw;

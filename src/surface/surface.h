@@ -33,6 +33,8 @@ struct SurfaceOptions {
   double min_spacing = 0;            ///< refinement stops here
   std::uint32_t border_levels = 0;   ///< that sites on sharp edges are raised by before there is light
   double contact_spacing = 0;        ///< gaps narrower than this are resolved to this alone before there is light
+  bool raises_first = false;         ///< whether anything is, as that says (first_levels.h)
+  std::uint32_t max_sites = 0;       ///< where that ends; 0: no limit
 };
 
 struct Site {
@@ -106,7 +108,8 @@ class Surface {
  public:
   /// Facets of meshes that do not receive have no sites. Borders are sampled from each edge's midpoint outward,
   /// identically from all sides; facets smaller than the spacing keep their corners (and a single triangle then needs
-  /// no triangulation of its own). Keeps references to all arguments but options.
+  /// no triangulation of its own). What rises before there is light does so before there are shares. Keeps references
+  /// to all arguments but options.
   Surface(const Scene& scene, const WeldedScene& welded, const Facets& facets, const SurfaceOptions& options,
           Host& host);
   ~Surface();

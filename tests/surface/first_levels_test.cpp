@@ -19,6 +19,7 @@ using test::SceneBuilder;
 SurfaceOptions graded(double spacing, std::uint32_t border_levels) {
   SurfaceOptions options{Lattice::hexagonal, spacing, 0, spacing / 32};
   options.border_levels = border_levels;
+  options.raises_first = true;
   return options;
 }
 
@@ -33,9 +34,7 @@ bool on_the_edge(const Vec3& p, double size) {
 TEST(FirstLevels, TheBordersOfARoomAreSampledTwoLevelsFinerAndItsMiddleAsItWas) {
   SceneBuilder builder(heap());
   builder.box({0, 0, 0}, {4, 4, 4}, true);
-  const SurfaceOptions options = graded(0.5, 2);
-  MadeSurface made(builder.take(), options);
-  raise_first_levels(made.surface, options, 0, heap());
+  MadeSurface made(builder.take(), graded(0.5, 2));
   test::audit(made);
   test::audit_cells(made);
   std::size_t on_one_edge = 0;
@@ -59,11 +58,10 @@ TEST(FirstLevels, TheBordersOfARoomAreSampledTwoLevelsFinerAndItsMiddleAsItWas) 
 TEST(FirstLevels, WhereASurfaceEndsAndNothingAdjoinsNoSiteIsAdded) {
   SceneBuilder builder(heap());
   builder.quad({0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0});
-  const SurfaceOptions options = graded(0.5, 2);
-  MadeSurface made(builder.take(), options);
-  const std::size_t before = made.surface.sites().size();
-  raise_first_levels(made.surface, options, 0, heap());
-  EXPECT_EQ(made.surface.sites().size(), before);
+  MadeSurface made(builder.take(), graded(0.5, 2));
+  for (std::uint32_t site = 0; site < made.surface.sites().size(); ++site) {
+    EXPECT_EQ(made.surface.level_of(site), 0u);
+  }
 }
 
 TEST(FirstLevels, WhereAWallStandsTheFloorIsSampledFinerToo) {
@@ -71,9 +69,7 @@ TEST(FirstLevels, WhereAWallStandsTheFloorIsSampledFinerToo) {
   builder.quad({0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0});
   builder.begin_mesh().receives = false;
   builder.quad({1, 2, -1}, {3, 2, -1}, {3, 2, 1}, {1, 2, 1});
-  const SurfaceOptions options = graded(0.5, 2);
-  MadeSurface made(builder.take(), options);
-  raise_first_levels(made.surface, options, 0, heap());
+  MadeSurface made(builder.take(), graded(0.5, 2));
   test::audit(made);
   std::size_t along = 0;
   for (std::uint32_t site = 0; site < made.surface.sites().size(); ++site) {
@@ -93,22 +89,64 @@ TEST(FirstLevels, AFacetSmallerThanACellGetsNone) {
   for (const double size : {0.2, 0.3}) {  // cells of levels 1 and 2: 0.25 and 0.125
     SceneBuilder builder(heap());
     builder.box({0, 0, 0}, {size, size, size}, false);
-    const SurfaceOptions options = graded(0.5, 1);
-    MadeSurface made(builder.take(), options);
-    raise_first_levels(made.surface, options, 0, heap());
+    MadeSurface made(builder.take(), graded(0.5, 1));
     for (std::uint32_t site = 0; site < made.surface.sites().size(); ++site) {
       EXPECT_EQ(made.surface.level_of(site), size < 0.25 ? 0u : 1u) << size;
     }
   }
 }
 
+// What rises before there are shares gives the surface that it gives afterwards, lattices and degenerate facets too.
+TEST(FirstLevels, AreWhatARefinementMakesOfThem) {
+  const auto scene = [] {
+    SceneBuilder builder(heap());
+    builder.box({0, 0, 0}, {4, 4, 4}, true);
+    builder.triangle({1, 1, 0.5}, {3, 1, 0.5}, {2, 1 + 1e-12, 0.5});
+    builder.begin_mesh();
+    builder.box({1.1, 1.3, 2.5}, {2.3, 2.9, 3.98}, false);
+    return builder.take();
+  };
+  SurfaceOptions options = graded(0.5, 2);
+  const MadeSurface at_once(scene(), options);
+  options.raises_first = false;
+  MadeSurface later(scene(), options);
+  raise_first_levels(later.surface, options, heap());
+  later.surface.refine({});
+  test::audit(at_once);
+  const auto& a = at_once.surface;
+  const auto& b = later.surface;
+  ASSERT_EQ(a.sites().size(), b.sites().size());
+  ASSERT_EQ(a.samples().size(), b.samples().size());
+  ASSERT_EQ(a.shares().size(), b.shares().size());
+  for (std::uint32_t k = 0; k < a.sites().size(); ++k) {
+    EXPECT_EQ(a.sites()[k].position, b.sites()[k].position);
+    EXPECT_EQ(a.sites()[k].parents, b.sites()[k].parents);
+    EXPECT_EQ(a.level_of(k), b.level_of(k));
+  }
+  for (std::uint32_t k = 0; k < a.shares().size(); ++k) {
+    EXPECT_EQ(a.shares()[k].centroid, b.shares()[k].centroid);
+    EXPECT_EQ(a.shares()[k].area, b.shares()[k].area);
+    EXPECT_EQ(a.shares()[k].sample, b.shares()[k].sample);
+    EXPECT_EQ(a.shares()[k].facet, b.shares()[k].facet);
+  }
+  for (std::uint32_t k = 0; k < a.samples().size(); ++k) {
+    EXPECT_EQ(a.samples()[k].point, b.samples()[k].point);
+    EXPECT_EQ(a.samples()[k].area, b.samples()[k].area);
+  }
+}
+
 TEST(FirstLevels, StaysWithinTheLimit) {
-  SceneBuilder builder(heap());
-  builder.box({0, 0, 0}, {4, 4, 4}, true);
-  const SurfaceOptions options = graded(0.5, 2);
-  MadeSurface made(builder.take(), options);
-  const std::size_t before = made.surface.sites().size();
-  raise_first_levels(made.surface, options, static_cast<std::uint32_t>(before + 100), heap());
+  const auto room = [](const SurfaceOptions& options) {
+    SceneBuilder builder(heap());
+    builder.box({0, 0, 0}, {4, 4, 4}, true);
+    return MadeSurface(builder.take(), options);
+  };
+  SurfaceOptions options = graded(0.5, 2);
+  options.raises_first = false;
+  const std::size_t before = room(options).surface.sites().size();
+  options.raises_first = true;
+  options.max_sites = static_cast<std::uint32_t>(before + 100);
+  const MadeSurface made = room(options);
   EXPECT_LE(made.surface.sites().size(), before + 50);  // half is left to the light
   EXPECT_GT(made.surface.sites().size(), before + 25);
   test::audit(made);
