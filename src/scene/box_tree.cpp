@@ -27,6 +27,13 @@ BoxTree::BoxTree(std::span<const Box> boxes, std::pmr::memory_resource* memory)
   if (boxes.empty()) {
     return;
   }
+  // What is split lies side by side: a number to order by, and whose it is.
+  struct Key {
+    double at;
+    std::uint32_t item;
+    bool operator<(const Key& other) const { return at != other.at ? at < other.at : item < other.item; }
+  };
+  std::pmr::vector<Key> keys(boxes.size(), memory);
   std::pmr::vector<Vec3> centres(boxes.size(), memory);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     centres[i] = boxes[i].low + boxes[i].high;  // twice the centre orders as well
@@ -39,28 +46,37 @@ BoxTree::BoxTree(std::span<const Box> boxes, std::pmr::memory_resource* memory)
   for (std::size_t at = 0; at < nodes_.size(); ++at) {
     const std::uint32_t first = nodes_[at].first;
     const std::uint32_t count = nodes_[at].count;
-    Box box;
+    if (count <= k_leaf) {
+      for (std::uint32_t i = first; i < first + count; ++i) {
+        nodes_[at].box.add(boxes[items_[i]]);
+      }
+      continue;
+    }
     Box spread;
     for (std::uint32_t i = first; i < first + count; ++i) {
-      box.add(boxes[items_[i]]);
       spread.add(centres[items_[i]]);
-    }
-    nodes_[at].box = box;
-    if (count <= k_leaf) {
-      continue;
     }
     const Vec3 size = spread.high - spread.low;
     const glm::length_t axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const std::uint32_t half = count / 2;
-    const auto begin = items_.begin() + first;
-    std::nth_element(begin, begin + half, begin + count, [&](std::uint32_t a, std::uint32_t b) {
-      return centres[a][axis] != centres[b][axis] ? centres[a][axis] < centres[b][axis] : a < b;
-    });
+    for (std::uint32_t i = 0; i < count; ++i) {
+      keys[i] = {centres[items_[first + i]][axis], items_[first + i]};
+    }
+    std::nth_element(keys.begin(), keys.begin() + half, keys.begin() + count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      items_[first + i] = keys[i].item;
+    }
     const auto children = static_cast<std::uint32_t>(nodes_.size());
     nodes_[at].first = children;
     nodes_[at].count = 0;
     nodes_.push_back({Box{}, first, half});
     nodes_.push_back({Box{}, first + half, count - half});
+  }
+  for (std::size_t at = nodes_.size(); at-- > 0;) {  // children come after their node
+    if (nodes_[at].count == 0) {
+      nodes_[at].box.add(nodes_[nodes_[at].first].box);
+      nodes_[at].box.add(nodes_[nodes_[at].first + 1].box);
+    }
   }
 }
 

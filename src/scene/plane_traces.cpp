@@ -114,6 +114,9 @@ void TracedPlane::trace_edges(std::uint32_t triangle, std::pmr::vector<Trace>& t
 // the normal: there the light on the plane changes within about the gap.
 void TracedPlane::trace_near(std::uint32_t triangle, std::pmr::vector<Trace>& traces) const {
   for (const EdgeUse& use : welded_.uses_of_triangle(triangle)) {
+    if (facets_.edge_kinds[use.edge] != EdgeKind::sharp) {
+      continue;
+    }
     const Vec3& a = welded_.positions[welded_.edges[use.edge].a];
     const Vec3& b = welded_.positions[welded_.edges[use.edge].b];
     const double height_a = height(a);
