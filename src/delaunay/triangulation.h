@@ -182,14 +182,6 @@ class Triangulation {
   /// corners (>= 0, sum 1). Several times as fast. k_none where it cannot tell: outside of the hull, and elsewhere too.
   /// start: a real triangle near it, or k_none.
   TriangleId locate_roughly(Vec2 point, std::array<double, 3>& weights, TriangleId start = k_none) const;
-  /// For many such walks at once: memory is asked ahead for what each will read first, the triangle and then, once that
-  /// is there, its corners.
-  void fetch_triangle(TriangleId t) const { __builtin_prefetch(&mesh_.triangle(t)); }
-  void fetch_corners(TriangleId t) const {
-    for (const VertexId vertex : mesh_.triangle(t).vertex) {
-      __builtin_prefetch(positions_.data() + (vertex == k_infinite ? 0 : vertex));
-    }
-  }
 
   /// Corner weights of a point in the triangle: affine, sum 1.
   std::array<double, 3> barycentric(TriangleId t, Vec2 point) const;

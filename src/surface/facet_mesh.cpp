@@ -16,11 +16,11 @@ FacetMesh::FacetMesh(const FacetInput& input, FacetDraft& draft)
       index_of_triangle_(input.memory),
       first_share_(input.memory),
       sites_(input.memory),
-      raster_(input.memory) {
+      quick_(input.memory) {
   if (!FacetTriangulator(input, *this, draft).run()) {
     cut_triangles(input, triangles_, draft);
   } else {
-    raster_.fill(*delaunay_);
+    quick_.fill(*delaunay_, index_of_triangle_);
   }
 }
 
@@ -89,6 +89,7 @@ Ties FacetMesh::align_ties(std::span<const double> value_of, double tolerance, s
   if (plain_triangles_.empty()) {
     plain_triangles_ = triangles_;
     next_in_polygon_.resize(triangles_.size());
+    quick_.clear();
   } else {
     triangles_ = plain_triangles_;
   }

@@ -12,8 +12,8 @@
 #include "delaunay/triangulation.h"
 #include "surface/facet_draft.h"
 #include "surface/lattice.h"
+#include "surface/quick_location.h"
 #include "surface/surface.h"
-#include "surface/triangle_raster.h"
 
 namespace radvor {
 
@@ -75,27 +75,12 @@ class FacetMesh {
   std::uint32_t locate(const Vec2& point) const;
   /// As locate, and fast, with weights of the corners; k_none where it cannot tell. Before ties are aligned.
   std::uint32_t locate_roughly(const Vec2& point, std::array<double, 3>& weights) const {
-    const delaunay::TriangleId found = delaunay_->locate_roughly(point, weights, raster_.at(point));
+    const delaunay::TriangleId found = delaunay_->locate_roughly(point, weights, quick_.start(point));
     return found == delaunay::k_none ? k_none : index_of_triangle_[found];
   }
 
-  /// For many locate_roughly at once: memory is asked ahead for what each reads first, step by
-  /// step, once the mesh itself is there.
-  void fetch_start(const Vec2& point) const { raster_.fetch(point); }
-  delaunay::TriangleId fetch_triangle(const Vec2& point) const {
-    const delaunay::TriangleId start = raster_.at(point);
-    if (start != delaunay::k_none) {
-      delaunay_->fetch_triangle(start);
-      __builtin_prefetch(&index_of_triangle_[start]);
-    }
-    return start;
-  }
-  void fetch_corners(delaunay::TriangleId start) const {
-    delaunay_->fetch_corners(start);
-    if (const std::uint32_t index = index_of_triangle_[start]; index != k_none) {
-      __builtin_prefetch(&triangles_[index]);
-    }
-  }
+  /// For many points at once: empty where the facet is degenerate or ties are aligned.
+  const QuickLocation& quick() const { return quick_; }
 
  private:
   friend class FacetTriangulator;
@@ -111,7 +96,7 @@ class FacetMesh {
   std::pmr::vector<std::uint32_t> first_share_;        // per vertex and one past the last
   std::pmr::vector<std::uint32_t> sites_;              // per vertex
   std::uint32_t border_count_ = 0;
-  TriangleRaster raster_;
+  QuickLocation quick_;
 };
 
 }  // namespace radvor

@@ -169,7 +169,8 @@ class Surface {
 
   /// The triangle of a facet at a point of its plane (the nearest where rounding puts the point outside).
   FacetPoint locate(std::uint32_t facet, const Vec2& point) const;
-  /// The same of many, for less than one after the other: found[i] of points[i].
+  /// The same of many, for less than one after the other: found[i] of points[i]; off by a float's rounding at the
+  /// facet's size.
   void locate(std::span<const PlanePoint> points, FacetPoint* found) const;
   /// The same; nothing where the point is beside the facet, or it takes long to say.
   std::optional<FacetPoint> find(std::uint32_t facet, const Vec2& point) const;

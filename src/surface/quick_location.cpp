@@ -1,0 +1,87 @@
+#include "surface/quick_location.h"
+
+#include <cmath>
+
+namespace radvor {
+
+// Towards the edge that the point is farthest beyond.
+delaunay::TriangleId QuickLocation::walk(const Vec2& point, delaunay::TriangleId t,
+                                         std::array<double, 3>& weights) const {
+  const auto x = static_cast<float>(point.x - low_.x);
+  const auto y = static_cast<float>(point.y - low_.y);
+  constexpr int k_most_steps = 64;
+  for (int step = 0; step < k_most_steps && t != delaunay::k_none; ++step) {
+    const Triangle& at = triangles_[t];
+    const std::array<float, 3> dx = {at.x[0] - x, at.x[1] - x, at.x[2] - x};
+    const std::array<float, 3> dy = {at.y[0] - y, at.y[1] - y, at.y[2] - y};
+    const std::array<float, 3> area = {dx[1] * dy[2] - dx[2] * dy[1], dx[2] * dy[0] - dx[0] * dy[2],
+                                       dx[0] * dy[1] - dx[1] * dy[0]};
+    const std::uint32_t least = area[1] < area[0] ? (area[2] < area[1] ? 2 : 1) : (area[2] < area[0] ? 2 : 0);
+    if (area[least] >= 0) {
+      weights = {area[0], area[1], area[2]};
+      const double sum = weights[0] + weights[1] + weights[2];
+      for (double& weight : weights) {
+        weight /= sum;
+      }
+      return sum > 0 ? t : delaunay::k_none;
+    }
+    t = at.beyond[least];
+  }
+  return delaunay::k_none;
+}
+
+void QuickLocation::clear() {
+  std::pmr::vector<Triangle>(triangles_.get_allocator()).swap(triangles_);
+  std::pmr::vector<delaunay::TriangleId>(starts_.get_allocator()).swap(starts_);
+}
+
+void QuickLocation::fill(const delaunay::Triangulation& triangulation,
+                         std::span<const std::uint32_t> index_of_triangle) {
+  constexpr double k_squares_a_vertex = 2;
+  clear();
+  const auto positions = triangulation.positions();
+  Vec2 high = low_ = positions[0];
+  for (const Vec2& position : positions) {
+    low_ = glm::min(low_, position);
+    high = glm::max(high, position);
+  }
+  const Vec2 size = high - low_;
+  if (!(size.x > 0 && size.y > 0)) {
+    return;
+  }
+  triangles_.resize(triangulation.triangle_bound());
+  for (delaunay::TriangleId t = 0; t < triangles_.size(); ++t) {
+    if (!triangulation.is_triangle(t)) {
+      continue;
+    }
+    Triangle& made = triangles_[t];
+    const auto corners = triangulation.triangle(t);
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      made.x[k] = static_cast<float>(positions[corners[k]].x - low_.x);
+      made.y[k] = static_cast<float>(positions[corners[k]].y - low_.y);
+      const delaunay::TriangleId next = delaunay::triangle_of(triangulation.twin(delaunay::half_edge(t, (k + 1) % 3)));
+      made.beyond[k] = triangulation.is_ghost(next) ? delaunay::k_none : next;
+    }
+    made.index = index_of_triangle[t];
+  }
+  const double most = k_squares_a_vertex * static_cast<double>(positions.size());
+  columns_ = static_cast<std::uint32_t>(std::clamp(std::sqrt(most * (size.x / size.y)), 1.0, most));
+  rows_ = static_cast<std::uint32_t>(std::clamp(std::sqrt(most * (size.y / size.x)), 1.0, most));
+  per_unit_ = Vec2(columns_, rows_) / size;
+  starts_.reserve(std::size_t{columns_} * rows_);
+  // Beyond the hull the square before knows best; a row begins where the one below it began.
+  std::array<double, 3> weights;
+  delaunay::TriangleId last = delaunay::k_none;
+  for (std::uint32_t row = 0; row < rows_; ++row) {
+    last = row == 0 ? last : starts_[std::size_t{row - 1} * columns_];
+    for (std::uint32_t column = 0; column < columns_; ++column) {
+      const Vec2 middle = low_ + (Vec2(column, row) + 0.5) / per_unit_;
+      const delaunay::TriangleId found =
+          last == delaunay::k_none ? triangulation.locate_roughly(middle, weights) : walk(middle, last, weights);
+      last = found == delaunay::k_none ? last : found;
+      starts_.push_back(last);
+    }
+  }
+}
+
+}  // namespace radvor
