@@ -19,8 +19,6 @@ FacetMesh::FacetMesh(const FacetInput& input, FacetDraft& draft)
       quick_(input.memory) {
   if (!FacetTriangulator(input, *this, draft).run()) {
     cut_triangles(input, triangles_, draft);
-  } else {
-    quick_.fill(*delaunay_, index_of_triangle_);
   }
 }
 

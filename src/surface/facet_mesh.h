@@ -79,7 +79,13 @@ class FacetMesh {
     return found == delaunay::k_none ? k_none : index_of_triangle_[found];
   }
 
-  /// For many points at once: empty where the facet is degenerate or ties are aligned.
+  /// Makes locate_roughly fast, and quick().
+  void prepare_location() {
+    if (delaunay_) {
+      quick_.fill(*delaunay_, index_of_triangle_);
+    }
+  }
+  /// For many points at once: empty where the facet is degenerate or ties are aligned, and before it is prepared.
   const QuickLocation& quick() const { return quick_; }
 
  private:

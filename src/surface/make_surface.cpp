@@ -354,6 +354,7 @@ class SurfaceMaker {
                                                : shading.on_side(share.source, parts_.sites[share.site].position));
     }
     draft.let_go();
+    parts_.meshes[parts_.records[facet].mesh]->prepare_location();
     return clamped;
   }
 

@@ -53,7 +53,10 @@ class Refinement {
     std::uint32_t facet;
     std::uint8_t level;
     std::int64_t x, y;
-    bool operator==(const Mark&) const = default;
+    bool is_centre = false;  ///< what mark() marks about it is marked
+    bool is_at(const Mark& other) const {
+      return facet == other.facet && level == other.level && x == other.x && y == other.y;
+    }
   };
 
   bool balance(std::size_t max_sites);
@@ -71,7 +74,7 @@ class Refinement {
   void mark(std::uint32_t facet, std::uint8_t level, const Vec2& point);
   void settle(std::uint32_t facet, std::uint8_t level, const Vec2& low, const Vec2& high);
   void follow_marks(std::uint32_t site, std::uint32_t facet, const Vec2& position);
-  bool is_marked(const Mark& square) const;
+  std::uint32_t find_mark(const Mark& square) const;
   void need(std::uint32_t site, std::uint8_t level);
 
   std::uint32_t append(const Vec3& position, std::uint8_t level, const SitePlace& place, double clearance);

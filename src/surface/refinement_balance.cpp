@@ -20,14 +20,18 @@ std::int64_t square_of(double coordinate, double side) {
 
 }  // namespace
 
-bool Refinement::is_marked(const Mark& square) const {
+std::uint32_t Refinement::find_mark(const Mark& square) const {
   return mark_table_.find(hash_square(square.facet, square.level, square.x, square.y),
-                          [&](std::uint32_t k) { return marks_[k] == square; }) != IndexTable::k_absent;
+                          [&](std::uint32_t k) { return marks_[k].is_at(square); });
 }
 
 void Refinement::mark(std::uint32_t facet, std::uint8_t level, const Vec2& point) {
-  const FacetGround& on = ground(facet);
   const double side = spacing(level);
+  const Mark centre{facet, level, square_of(point.x, side), square_of(point.y, side)};
+  if (const std::uint32_t known = find_mark(centre); known != IndexTable::k_absent && marks_[known].is_centre) {
+    return;
+  }
+  const FacetGround& on = ground(facet);
   const auto bound = [&](double middle, std::int64_t squares, double low, double high) {
     return std::clamp(square_of(middle, side) + squares, square_of(low, side), square_of(high, side));
   };
@@ -41,10 +45,13 @@ void Refinement::mark(std::uint32_t facet, std::uint8_t level, const Vec2& point
       const Mark square{facet, level, x, y};
       const auto next = static_cast<std::uint32_t>(marks_.size());
       if (mark_table_.find_or_insert(hash_square(facet, level, x, y), next,
-                                     [&](std::uint32_t k) { return marks_[k] == square; }) == next) {
+                                     [&](std::uint32_t k) { return marks_[k].is_at(square); }) == next) {
         marks_.push_back(square);
       }
     }
+  }
+  if (const std::uint32_t known = find_mark(centre); known != IndexTable::k_absent) {
+    marks_[known].is_centre = true;
   }
   if (marks_.size() > before) {
     settle(facet, level, Vec2(first_x, first_y) * side, Vec2(last_x + 1, last_y + 1) * side);
@@ -102,7 +109,8 @@ void Refinement::settle(std::uint32_t facet, std::uint8_t level, const Vec2& low
 
 void Refinement::follow_marks(std::uint32_t site, std::uint32_t facet, const Vec2& position) {
   for (std::uint8_t level = finest_; !marks_.empty() && level > parts_.levels[site]; --level) {
-    if (is_marked({facet, level, square_of(position.x, spacing(level)), square_of(position.y, spacing(level))})) {
+    if (find_mark({facet, level, square_of(position.x, spacing(level)), square_of(position.y, spacing(level))}) !=
+        IndexTable::k_absent) {
       need(site, level);
       return;
     }
