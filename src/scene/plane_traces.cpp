@@ -139,11 +139,8 @@ void TracedPlane::trace_near(std::uint32_t triangle, std::pmr::vector<Trace>& tr
   }
 }
 
-// Whether the surface at an edge is on one side of it alone, as seen along the normal.
+// Whether the surface at a sharp edge is on one side of it alone, as seen along the normal.
 bool TracedPlane::is_silhouette(std::uint32_t edge) const {
-  if (facets_.edge_kinds[edge] != EdgeKind::sharp) {
-    return false;
-  }
   const Vec2 a = project(welded_.positions[welded_.edges[edge].a]);
   const Vec2 along = project(welded_.positions[welded_.edges[edge].b]) - a;
   bool left = false;

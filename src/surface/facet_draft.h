@@ -80,6 +80,11 @@ struct FacetDraft {
     std::pmr::vector<FacetShare>(shares.get_allocator()).swap(shares);
     std::pmr::vector<LatticeIndex>(lattice.get_allocator()).swap(lattice);
   }
+  void let_all_go() {
+    let_go();
+    std::pmr::vector<BorderPiece>(pieces.get_allocator()).swap(pieces);
+    std::pmr::vector<std::array<std::uint32_t, 2>>(joined.get_allocator()).swap(joined);
+  }
 
   std::pmr::vector<FacetShare> shares;
   std::pmr::vector<LatticeIndex> lattice;                 ///< of the first elements' level: the inner sites found

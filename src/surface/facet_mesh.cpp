@@ -10,13 +10,13 @@
 namespace radvor {
 
 FacetMesh::FacetMesh(const FacetInput& input, FacetDraft& draft)
-    : triangles_(input.memory),
+    : quick_(input.memory),
+      triangles_(input.memory),
       plain_triangles_(input.memory),
       next_in_polygon_(input.memory),
       index_of_triangle_(input.memory),
       first_share_(input.memory),
-      sites_(input.memory),
-      quick_(input.memory) {
+      sites_(input.memory) {
   if (!FacetTriangulator(input, *this, draft).run()) {
     cut_triangles(input, triangles_, draft);
   }

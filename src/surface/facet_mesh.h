@@ -1,5 +1,5 @@
 // One facet's triangles: a constrained Delaunay triangulation of its border, border sites and lattice. A facet that is
-// too degenerate for that keeps its own triangles instead (source_triangles.h).
+// too degenerate for that keeps its own triangles instead (cut_triangles.h).
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/prefetch.h"
 #include "delaunay/cells.h"
 #include "delaunay/triangulation.h"
 #include "surface/facet_draft.h"
@@ -48,6 +49,20 @@ class FacetMesh {
   std::uint32_t first_share(std::uint32_t vertex) const { return first_share_[vertex]; }
   std::uint32_t end_share(std::uint32_t vertex) const { return first_share_[vertex + 1]; }
 
+  /// Fills quick(), which tells triangles as locate does, to rays: it finds nothing before that, where the facet is
+  /// degenerate, and once ties are aligned.
+  void prepare_location() {
+    if (delaunay_) {
+      quick_.fill(*delaunay_, index_of_triangle_);
+    }
+  }
+  const QuickLocation& quick() const { return quick_; }
+  /// Asks memory ahead for what quick() and triangles() read of the mesh itself.
+  void fetch() const {
+    prefetch(quick_);
+    prefetch(triangles_);
+  }
+
   /// The facet was too degenerate: there is no triangulation, and each triangle's corners are shares of their own.
   bool degenerate() const { return !delaunay_.has_value(); }
 
@@ -73,20 +88,12 @@ class FacetMesh {
 
   /// The triangle at a point of the facet's plane, or the nearest where it is beside all: an index into triangles().
   std::uint32_t locate(const Vec2& point) const;
-  /// As locate, and fast, with weights of the corners; k_none where it cannot tell. Before ties are aligned.
+  /// As locate, without exact arithmetic, and with weights of the corners; k_none where it cannot tell. Before ties are
+  /// aligned.
   std::uint32_t locate_roughly(const Vec2& point, std::array<double, 3>& weights) const {
     const delaunay::TriangleId found = delaunay_->locate_roughly(point, weights, quick_.start(point));
     return found == delaunay::k_none ? k_none : index_of_triangle_[found];
   }
-
-  /// Makes locate_roughly fast, and quick().
-  void prepare_location() {
-    if (delaunay_) {
-      quick_.fill(*delaunay_, index_of_triangle_);
-    }
-  }
-  /// For many points at once: empty where the facet is degenerate or ties are aligned, and before it is prepared.
-  const QuickLocation& quick() const { return quick_; }
 
  private:
   friend class FacetTriangulator;
@@ -95,14 +102,14 @@ class FacetMesh {
 
   std::optional<delaunay::Triangulation> delaunay_;
   std::optional<FacetLattice> lattice_;
-  std::pmr::vector<ShareTriangle> triangles_;
+  QuickLocation quick_;
+  std::pmr::vector<ShareTriangle> triangles_;          // beside quick_: rays read both
   std::pmr::vector<ShareTriangle> plain_triangles_;    // before ties were aligned; empty until then
   std::pmr::vector<std::uint32_t> next_in_polygon_;    // likewise
   std::pmr::vector<std::uint32_t> index_of_triangle_;  // per triangle of the triangulation: into triangles_, or k_none
   std::pmr::vector<std::uint32_t> first_share_;        // per vertex and one past the last
   std::pmr::vector<std::uint32_t> sites_;              // per vertex
   std::uint32_t border_count_ = 0;
-  QuickLocation quick_;
 };
 
 }  // namespace radvor

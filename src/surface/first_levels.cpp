@@ -52,17 +52,17 @@ class Borders {
 }  // namespace
 
 void raise_first_levels(Surface& surface, const SurfaceOptions& options, std::pmr::memory_resource* memory) {
-  raise_borders(surface, options, options.max_sites, memory);
-  resolve_gaps(surface, options, options.max_sites, memory);
+  raise_borders(surface, options, memory);
+  resolve_gaps(surface, options, memory);
 }
 
-void raise_borders(Surface& surface, const SurfaceOptions& options, std::uint32_t max_sites,
-                   std::pmr::memory_resource* memory) {
+void raise_borders(Surface& surface, const SurfaceOptions& options, std::pmr::memory_resource* memory) {
   const std::size_t first = surface.sites().size();
-  if (max_sites != 0 && max_sites <= first) {
+  if (options.max_sites != 0 && options.max_sites <= first) {
     return;
   }
-  const std::uint32_t most = least_limit(4 * first + 8192, max_sites == 0 ? 0 : first + (max_sites - first) / 2);
+  const std::uint32_t most =
+      least_limit(4 * first + 8192, options.max_sites == 0 ? 0 : first + (options.max_sites - first) / 2);
   for (std::uint32_t level = 1; level <= std::min(options.border_levels, surface.max_level()); ++level) {
     const double cell = spacing_of(options, level);
     const Borders borders(surface, cell * cell, memory);
@@ -77,10 +77,9 @@ void raise_borders(Surface& surface, const SurfaceOptions& options, std::uint32_
   }
 }
 
-void resolve_gaps(Surface& surface, const SurfaceOptions& options, std::uint32_t max_sites,
-                  std::pmr::memory_resource* memory) {
+void resolve_gaps(Surface& surface, const SurfaceOptions& options, std::pmr::memory_resource* memory) {
   const std::size_t first = surface.sites().size();
-  const std::uint32_t most = least_limit(first + first / 4 + 4096, max_sites);
+  const std::uint32_t most = least_limit(first + first / 4 + 4096, options.max_sites);
   for (auto wide = sites_wider_than_gaps(surface, options, memory); !wide.empty() && surface.sites().size() < most;
        wide = sites_wider_than_gaps(surface, options, memory)) {
     const std::size_t before = surface.sites().size();

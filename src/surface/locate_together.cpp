@@ -23,8 +23,7 @@ class Chain {
     }
     tell_apart();
     for (std::size_t k = 0; k < meshed_; ++k) {
-      prefetch(meshes_[k]->quick());
-      __builtin_prefetch(meshes_[k]);
+      meshes_[k]->fetch();
     }
     for (std::size_t k = 0; k < corners_; ++k) {
       __builtin_prefetch(&parts_.shares[chain_[k]].sample);

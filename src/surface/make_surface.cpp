@@ -80,6 +80,7 @@ class SurfaceMaker {
   void free_retired() {
     for (const std::uint32_t mesh : retired_) {
       parts_.meshes[mesh].reset();
+      parts_.drafts[mesh].let_all_go();
     }
     retired_.clear();
   }
@@ -297,7 +298,7 @@ class SurfaceMaker {
     copy(before.details.receiver, parts_.details.receiver);
   }
 
-  // Of facets_, which drafts are still there of.
+  // Of facets_, whose drafts are still there.
   void fill_shares() {
     constexpr double k_task = 2000;
     const EvenRanges ranges(

@@ -4,11 +4,27 @@
 
 namespace radvor {
 
+namespace {
+
+// Of a triangle's longest side, and the facet's size: what is less high may be turned over by rounding to floats.
+constexpr double k_thin = 0x1p-20;
+
+bool is_thick(const delaunay::Triangulation& triangulation, delaunay::TriangleId t, double scale) {
+  const auto corners = triangulation.triangle(t);
+  const Vec2 a = triangulation.position(corners[0]);
+  const Vec2 b = (triangulation.position(corners[1]) - a) * scale;
+  const Vec2 c = (triangulation.position(corners[2]) - a) * scale;
+  const double longest = std::sqrt(std::max({glm::dot(b, b), glm::dot(c, c), glm::dot(c - b, c - b)}));
+  return b.x * c.y - b.y * c.x > k_thin * longest;
+}
+
+}  // namespace
+
 // Towards the edge that the point is farthest beyond.
 delaunay::TriangleId QuickLocation::walk(const Vec2& point, delaunay::TriangleId t,
                                          std::array<double, 3>& weights) const {
-  const auto x = static_cast<float>(point.x - low_.x);
-  const auto y = static_cast<float>(point.y - low_.y);
+  const auto x = static_cast<float>((point.x - low_.x) * scale_);
+  const auto y = static_cast<float>((point.y - low_.y) * scale_);
   constexpr int k_most_steps = 64;
   for (int step = 0; step < k_most_steps && t != delaunay::k_none; ++step) {
     const Triangle& at = triangles_[t];
@@ -49,18 +65,24 @@ void QuickLocation::fill(const delaunay::Triangulation& triangulation,
   if (!(size.x > 0 && size.y > 0)) {
     return;
   }
+  scale_ = std::ldexp(1.0, -std::ilogb(std::max(size.x, size.y)) - 1);
   triangles_.resize(triangulation.triangle_bound());
+  std::pmr::vector<std::uint8_t> is_told(triangles_.size(), std::uint8_t{0}, triangles_.get_allocator());
   for (delaunay::TriangleId t = 0; t < triangles_.size(); ++t) {
-    if (!triangulation.is_triangle(t)) {
-      continue;
+    is_told[t] = triangulation.is_triangle(t) && is_thick(triangulation, t, scale_) ? 1 : 0;
+  }
+  for (delaunay::TriangleId t = 0; t < triangles_.size(); ++t) {
+    if (is_told[t] == 0) {
+      continue;  // no walk comes here
     }
     Triangle& made = triangles_[t];
     const auto corners = triangulation.triangle(t);
     for (std::uint32_t k = 0; k < 3; ++k) {
-      made.x[k] = static_cast<float>(positions[corners[k]].x - low_.x);
-      made.y[k] = static_cast<float>(positions[corners[k]].y - low_.y);
+      const Vec2 corner = (positions[corners[k]] - low_) * scale_;
+      made.x[k] = static_cast<float>(corner.x);
+      made.y[k] = static_cast<float>(corner.y);
       const delaunay::TriangleId next = delaunay::triangle_of(triangulation.twin(delaunay::half_edge(t, (k + 1) % 3)));
-      made.beyond[k] = triangulation.is_ghost(next) ? delaunay::k_none : next;
+      made.beyond[k] = is_told[next] != 0 ? next : delaunay::k_none;
     }
     made.index = index_of_triangle[t];
   }
@@ -78,7 +100,7 @@ void QuickLocation::fill(const delaunay::Triangulation& triangulation,
       const Vec2 middle = low_ + (Vec2(column, row) + 0.5) / per_unit_;
       const delaunay::TriangleId found =
           last == delaunay::k_none ? triangulation.locate_roughly(middle, weights) : walk(middle, last, weights);
-      last = found == delaunay::k_none ? last : found;
+      last = found != delaunay::k_none && is_told[found] != 0 ? found : last;
       starts_.push_back(last);
     }
   }

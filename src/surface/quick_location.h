@@ -29,8 +29,9 @@ class QuickLocation {
     return starts_.empty() ? delaunay::k_none : starts_[square(point)];
   }
 
-  /// Of a triangle that the point is in but for the rounding of floats, with its corners' weights (>= 0, sum 1). k_none
-  /// where it cannot tell: outside of the domain, and elsewhere too. from: what start() told.
+  /// Of a triangle that the point is in but for the rounding of floats at the facet's size, with its corners' weights
+  /// (>= 0, sum 1). k_none where it cannot tell: outside of the domain, in triangles so thin that a float does not tell
+  /// their sides apart, and elsewhere too. from: what start() told.
   std::uint32_t find(const Vec2& point, delaunay::TriangleId from, std::array<double, 3>& weights) const {
     const delaunay::TriangleId t = from == delaunay::k_none ? from : walk(point, from, weights);
     return t == delaunay::k_none ? t : triangles_[t].index;
@@ -51,9 +52,10 @@ class QuickLocation {
 
  private:
   struct Triangle {
-    std::array<float, 3> x, y;                   // of the corners, from low_
-    std::array<delaunay::TriangleId, 3> beyond;  // across from each; k_none: the hull's outside
-    std::uint32_t index;
+    std::array<float, 3> x{}, y{};  // of the corners, from low_, over the facet's size
+    std::array<delaunay::TriangleId, 3> beyond{delaunay::k_none, delaunay::k_none,
+                                               delaunay::k_none};  // across from each
+    std::uint32_t index = delaunay::k_none;
   };
 
   delaunay::TriangleId walk(const Vec2& point, delaunay::TriangleId t, std::array<double, 3>& weights) const;
@@ -67,8 +69,9 @@ class QuickLocation {
   }
 
   Vec2 low_{0.0}, per_unit_{0.0};
+  double scale_ = 1;  // a power of two: coordinates are 0 to 1
   std::uint32_t columns_ = 0, rows_ = 0;
-  std::pmr::vector<Triangle> triangles_;           // per triangle of the triangulation; of ghosts nothing
+  std::pmr::vector<Triangle> triangles_;           // per triangle of the triangulation
   std::pmr::vector<delaunay::TriangleId> starts_;  // per square, row by row
 };
 

@@ -36,10 +36,9 @@ void Refinement::raise(std::span<const std::uint32_t> sites, std::uint32_t max_s
   clearance_.resize(parts_.sites.size(), -1.0);
   const std::pmr::vector<std::uint8_t> levels(parts_.levels, parts_.memory);  // a site named twice rises once
   for (const std::uint32_t site : sites) {
-    const std::size_t before = parts_.sites.size();
     const auto level = static_cast<std::uint8_t>(levels[site] + 1);
     if (level <= finest_) {
-      raised_.clear();
+      const Count before = begin_step();
       need(site, level);
       if (!balance(max_sites > 0 ? max_sites : k_none)) {
         roll_back(before);
@@ -47,6 +46,11 @@ void Refinement::raise(std::span<const std::uint32_t> sites, std::uint32_t max_s
       }
     }
   }
+}
+
+Refinement::Count Refinement::begin_step() {
+  raised_.clear();
+  return {parts_.sites.size(), marks_.size()};
 }
 
 // Raises what is pending, and all that this asks for. False where there would be too many sites; then what was done is
@@ -72,21 +76,21 @@ bool Refinement::balance(std::size_t max_sites) {
   return true;
 }
 
-void Refinement::roll_back(std::size_t site_count) {
+void Refinement::roll_back(const Count& before) {
   pending_.clear();
   for (const std::uint32_t site : raised_) {
     --parts_.levels[site];
   }
-  while (!irregular_.empty() && irregular_.back().site >= site_count) {
+  while (!irregular_.empty() && irregular_.back().site >= before.sites) {
     ground_of_[parts_.places[irregular_.back().site].facet] = k_none;  // to be made without it
     irregular_.pop_back();
   }
-  parts_.sites.resize(site_count);
-  parts_.places.resize(site_count);
-  parts_.levels.resize(site_count);
-  clearance_.resize(site_count);
+  parts_.sites.resize(before.sites);
+  parts_.places.resize(before.sites);
+  parts_.levels.resize(before.sites);
+  clearance_.resize(before.sites);
   fill_table();
-  // Squares that were marked for what is undone stay marked: it would have been too much, and little can come.
+  keep_marks(before.marks);
 }
 
 void Refinement::need(std::uint32_t site, std::uint8_t level) {

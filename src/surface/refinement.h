@@ -52,17 +52,23 @@ class Refinement {
   struct Mark {
     std::uint32_t facet;
     std::uint8_t level;
-    std::int64_t x, y;
     bool is_centre = false;  ///< what mark() marks about it is marked
+    std::int64_t x, y;
     bool is_at(const Mark& other) const {
       return facet == other.facet && level == other.level && x == other.x && y == other.y;
     }
   };
 
+  /// How much there is of what a step adds to.
+  struct Count {
+    std::size_t sites, marks;
+  };
+
+  Count begin_step();
   bool balance(std::size_t max_sites);
   bool is_free(std::uint32_t facet, const Vec2& point);
   std::uint8_t level_at(std::uint32_t facet, const Vec2& point) const;
-  void roll_back(std::size_t site_count);
+  void roll_back(const Count& before);
   void insert_around(std::uint32_t site, std::uint8_t level);
   void insert_on_lattice(std::uint32_t site, std::uint8_t level);
   void insert_on_edges(std::uint32_t site, std::uint8_t level);
@@ -72,6 +78,7 @@ class Refinement {
   void edge_site(std::uint32_t edge, std::int64_t step, std::uint8_t level);
 
   void mark(std::uint32_t facet, std::uint8_t level, const Vec2& point);
+  void keep_marks(std::size_t count);
   void settle(std::uint32_t facet, std::uint8_t level, const Vec2& low, const Vec2& high);
   void follow_marks(std::uint32_t site, std::uint32_t facet, const Vec2& position);
   std::uint32_t find_mark(const Mark& square) const;
@@ -112,7 +119,7 @@ class Refinement {
 
   std::pmr::vector<InnerSite> irregular_;   // that insert() made, ascending
   std::pmr::vector<Raising> pending_;       // a stack
-  std::pmr::vector<std::uint32_t> raised_;  // since the site at hand
+  std::pmr::vector<std::uint32_t> raised_;  // in this step
   std::uint32_t first_new_;
 };
 

@@ -27,7 +27,7 @@ std::uint32_t Refinement::find_mark(const Mark& square) const {
 
 void Refinement::mark(std::uint32_t facet, std::uint8_t level, const Vec2& point) {
   const double side = spacing(level);
-  const Mark centre{facet, level, square_of(point.x, side), square_of(point.y, side)};
+  const Mark centre{facet, level, true, square_of(point.x, side), square_of(point.y, side)};
   if (const std::uint32_t known = find_mark(centre); known != IndexTable::k_absent && marks_[known].is_centre) {
     return;
   }
@@ -42,7 +42,7 @@ void Refinement::mark(std::uint32_t facet, std::uint8_t level, const Vec2& point
   const std::size_t before = marks_.size();
   for (std::int64_t y = first_y; y <= last_y; ++y) {
     for (std::int64_t x = first_x; x <= last_x; ++x) {
-      const Mark square{facet, level, x, y};
+      const Mark square{facet, level, false, x, y};
       const auto next = static_cast<std::uint32_t>(marks_.size());
       if (mark_table_.find_or_insert(hash_square(facet, level, x, y), next,
                                      [&](std::uint32_t k) { return marks_[k].is_at(square); }) == next) {
@@ -55,6 +55,18 @@ void Refinement::mark(std::uint32_t facet, std::uint8_t level, const Vec2& point
   }
   if (marks_.size() > before) {
     settle(facet, level, Vec2(first_x, first_y) * side, Vec2(last_x + 1, last_y + 1) * side);
+  }
+}
+
+// The first so many; what lags in the others is not pending any more.
+void Refinement::keep_marks(std::size_t count) {
+  marks_.resize(count);
+  mark_table_ = IndexTable(count, parts_.memory);
+  for (std::uint32_t k = 0; k < count; ++k) {
+    marks_[k].is_centre = false;  // part of what is about it may be gone
+    const Mark& square = marks_[k];
+    mark_table_.find_or_insert(hash_square(square.facet, square.level, square.x, square.y), k,
+                               [](std::uint32_t) { return false; });
   }
 }
 
@@ -109,8 +121,8 @@ void Refinement::settle(std::uint32_t facet, std::uint8_t level, const Vec2& low
 
 void Refinement::follow_marks(std::uint32_t site, std::uint32_t facet, const Vec2& position) {
   for (std::uint8_t level = finest_; !marks_.empty() && level > parts_.levels[site]; --level) {
-    if (find_mark({facet, level, square_of(position.x, spacing(level)), square_of(position.y, spacing(level))}) !=
-        IndexTable::k_absent) {
+    if (find_mark({facet, level, false, square_of(position.x, spacing(level)),
+                   square_of(position.y, spacing(level))}) != IndexTable::k_absent) {
       need(site, level);
       return;
     }

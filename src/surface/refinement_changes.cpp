@@ -49,6 +49,9 @@ ChangedFacets Refinement::take_changes() {
   ChangedFacets changed(parts_.memory);
   for (std::uint32_t site = first_new_; site < parts_.sites.size(); ++site) {
     find_parents(site);
+    if (parts_.sites[site].vertex != k_none) {
+      continue;  // of a facet that has become degenerate, and is made of its own triangles
+    }
     if (parts_.sites[site].edge != k_none) {
       on_edges.push_back({parts_.sites[site].edge, {site, parts_.places[site].index.i}});
     } else {

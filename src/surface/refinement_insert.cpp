@@ -10,8 +10,7 @@ void Refinement::insert(std::span<const WantedSite> wanted, std::uint32_t max_si
   const std::size_t most = max_sites > 0 ? max_sites : k_none;
   const std::size_t first = irregular_.size();
   for (const WantedSite& wish : wanted) {
-    const std::size_t before = parts_.sites.size();
-    if (before >= most) {
+    if (parts_.sites.size() >= most) {
       break;
     }
     if (!is_lattice_facet(wish.facet)) {
@@ -21,12 +20,12 @@ void Refinement::insert(std::span<const WantedSite> wanted, std::uint32_t max_si
     if (!is_free(wish.facet, point)) {
       continue;
     }
+    const Count before = begin_step();
     const std::uint8_t level = level_at(wish.facet, point);
     const std::uint32_t site =
         append(ground(wish.facet).frame().to_world(point), level, {wish.facet, false, {0, 0}}, 0);
     irregular_.push_back({point, site});
     grounds_[ground_of_[wish.facet]]->add(irregular_.back());
-    raised_.clear();
     follow_marks(site, wish.facet, point);
     if (level > 1) {
       mark(wish.facet, static_cast<std::uint8_t>(level - 1), point);

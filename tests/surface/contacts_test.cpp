@@ -115,14 +115,16 @@ TEST(ContactSites, AboutALampUnderACeilingTheSpacingComesDownToTheGap) {
     builder.quad({0, 0, 3}, {0, 4, 3}, {4, 4, 3}, {4, 0, 3});
     builder.begin_mesh();
     builder.box({1.1, 1.3, 2.5}, {2.3, 2.9, 3 - gap}, false);
-    const SurfaceOptions options{Lattice::hexagonal, 0.4, 0, 0.05};
+    SurfaceOptions options{Lattice::hexagonal, 0.4, 0, 0.05};
     MadeSurface made(builder.take(), options);
     ASSERT_EQ(made.facets.contacts.edges.size(), 4u);
     EXPECT_NEAR(made.facets.contacts.edges[0].gap, gap, 1e-6);
     const std::size_t before = made.surface.sites().size();
-    resolve_gaps(made.surface, options, static_cast<std::uint32_t>(before + 100), heap());
+    options.max_sites = static_cast<std::uint32_t>(before + 100);
+    resolve_gaps(made.surface, options, heap());
     EXPECT_LE(made.surface.sites().size(), before + 100);
-    resolve_gaps(made.surface, options, 0, heap());
+    options.max_sites = 0;
+    resolve_gaps(made.surface, options, heap());
     made.surface.refine({});
     EXPECT_TRUE(sites_wider_than_gaps(made.surface, options, heap()).empty());
     test::audit(made);
@@ -153,7 +155,7 @@ TEST(ContactSites, AGapNarrowerThanTheContactsSpacingIsResolvedToThatAlone) {
   SurfaceOptions options{Lattice::hexagonal, 0.4, 0, 0.01};
   options.contact_spacing = 0.06;
   MadeSurface made(builder.take(), options);
-  resolve_gaps(made.surface, options, 0, heap());
+  resolve_gaps(made.surface, options, heap());
   const auto& contacts = made.facets.contacts.edges;
   ASSERT_EQ(contacts.size(), 4u);
   std::size_t on_contacts = 0;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <numbers>
 #include <random>
 
@@ -64,6 +65,43 @@ TEST(FacetMesh, CellsFillConcaveFacetsWithHoles) {
     builder.prism(outer, inner, 0.7f);
     Prepared prepared(builder.take(), std::uniform_real_distribution<double>(0.02, 0.8)(random));
     expect_cells_fill(prepared);
+  }
+}
+
+// Rays need no exact arithmetic for nearly all that they hit.
+TEST(FacetMesh, QuickLocationFindsNearlyAllUntilTiesAreAligned) {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  test::SceneBuilder builder(std::pmr::get_default_resource());
+  std::vector<Vec2> outer, inner;
+  test::random_rings(random, 9, outer, inner);
+  builder.prism(outer, inner, 0.7f);
+  Prepared prepared(builder.take(), 0.05);
+  for (std::uint32_t facet = 0; facet < prepared.facets.facets.size(); ++facet) {
+    FacetDraft draft(&prepared.host.memory);
+    FacetMesh mesh(prepared.input(facet), draft);
+    ASSERT_FALSE(mesh.degenerate());
+    mesh.prepare_location();
+    const QuickLocation& quick = mesh.quick();
+    constexpr int k_points = 1000;
+    std::array<double, 3> weights;
+    const auto some_point = [&] {
+      const auto triangles = prepared.facets.triangles_of(facet);
+      const auto& corners = prepared.welded.triangles[triangles[random() % triangles.size()]].vertices;
+      const double u = uniform(random), v = uniform(random) * (1 - u);
+      const auto& at = prepared.welded.positions;
+      return prepared.facets.facets[facet].frame.to_plane((1 - u - v) * at[corners[0]] + u * at[corners[1]] +
+                                                          v * at[corners[2]]);
+    };
+    int found = 0;
+    for (int k = 0; k < k_points; ++k) {
+      const Vec2 point = some_point();
+      found += quick.find(point, quick.start(point), weights) != k_none ? 1 : 0;
+    }
+    EXPECT_GT(found, 0.99 * k_points) << facet;
+    mesh.align_ties(std::vector<double>(draft.shares.size(), 1.0), 0, &prepared.host.memory);
+    const Vec2 point = some_point();
+    EXPECT_EQ(quick.find(point, quick.start(point), weights), k_none);
   }
 }
 

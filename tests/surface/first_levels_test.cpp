@@ -96,13 +96,17 @@ TEST(FirstLevels, AFacetSmallerThanACellGetsNone) {
   }
 }
 
-// What rises before there are shares gives the surface that it gives afterwards, lattices and degenerate facets too.
+// What rises before there are shares gives the surface that it gives afterwards.
 TEST(FirstLevels, AreWhatARefinementMakesOfThem) {
   const auto scene = [] {
     SceneBuilder builder(heap());
     builder.box({0, 0, 0}, {4, 4, 4}, true);
-    builder.triangle({1, 1, 0.5}, {3, 1, 0.5}, {2, 1 + 1e-12, 0.5});
+    builder.mesh().sites.assign({glm::vec3(0.7f, 3.2f, 0), glm::vec3(0.9f, 3.3f, 0)});
+    test::cylinder(builder, 12, 0.4, 2, true);
     builder.begin_mesh();
+    const std::uint32_t both = builder.add_material({Color(0.5), Color(0.0), true});
+    builder.quad({3, 0, 0}, {3, 4, 0}, {3, 4, 1}, {3, 0, 1}, both);
+    builder.triangle({3.2, 3.2, 2}, {3.4, 3.2, 2}, {3.3, 3.4, 2.1}, both);
     builder.box({1.1, 1.3, 2.5}, {2.3, 2.9, 3.98}, false);
     return builder.take();
   };
@@ -115,6 +119,8 @@ TEST(FirstLevels, AreWhatARefinementMakesOfThem) {
   test::audit(at_once);
   const auto& a = at_once.surface;
   const auto& b = later.surface;
+  const MadeSurface plain(scene(), options);
+  ASSERT_GT(a.sites().size(), plain.surface.sites().size() + 200);
   ASSERT_EQ(a.sites().size(), b.sites().size());
   ASSERT_EQ(a.samples().size(), b.samples().size());
   ASSERT_EQ(a.shares().size(), b.shares().size());
@@ -128,10 +134,17 @@ TEST(FirstLevels, AreWhatARefinementMakesOfThem) {
     EXPECT_EQ(a.shares()[k].area, b.shares()[k].area);
     EXPECT_EQ(a.shares()[k].sample, b.shares()[k].sample);
     EXPECT_EQ(a.shares()[k].facet, b.shares()[k].facet);
+    EXPECT_EQ(a.shares()[k].other_side, b.shares()[k].other_side);
+    EXPECT_EQ(a.shares()[k].back, b.shares()[k].back);
+  }
+  for (std::uint32_t facet = 0; facet < at_once.facets.facets.size(); ++facet) {
+    EXPECT_TRUE(std::ranges::equal(a.triangles(facet), b.triangles(facet)));
   }
   for (std::uint32_t k = 0; k < a.samples().size(); ++k) {
     EXPECT_EQ(a.samples()[k].point, b.samples()[k].point);
     EXPECT_EQ(a.samples()[k].area, b.samples()[k].area);
+    EXPECT_EQ(a.samples()[k].normal, b.samples()[k].normal);
+    EXPECT_EQ(a.samples()[k].site, b.samples()[k].site);
   }
 }
 

@@ -44,7 +44,9 @@ struct Given {
     SpacingRequest request;
     request.refines = true;
     request.element_levels = element_levels;
-    return choose_spacing(scene, welded, facets, request);
+    SurfaceOptions options = choose_spacing(scene, welded, facets, request);
+    options.raises_first = false;  // that is a refinement, measured by itself
+    return options;
   }
 
   test::TestHost host;
