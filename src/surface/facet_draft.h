@@ -64,7 +64,8 @@ struct BorderPiece {
   std::uint32_t low, high;  ///< nearer to a, nearer to b
 };
 
-/// shares and lattice are let go once the surface's shares are made of them; the others stay.
+/// shares and lattice are let go once the surface's shares are made of them; the others stay until the facet is made
+/// anew.
 struct FacetDraft {
   explicit FacetDraft(std::pmr::memory_resource* memory)
       : shares(memory), lattice(memory), pieces(memory), joined(memory) {}

@@ -1,12 +1,13 @@
 #include "surface/quick_location.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace radvor {
 
 namespace {
 
-// Of a triangle's longest side, and the facet's size: what is less high may be turned over by rounding to floats.
+// Of the facet's size: a triangle that is less high may be turned over where floats round its corners.
 constexpr double k_thin = 0x1p-20;
 
 bool is_thick(const delaunay::Triangulation& triangulation, delaunay::TriangleId t, double scale) {
@@ -18,28 +19,38 @@ bool is_thick(const delaunay::Triangulation& triangulation, delaunay::TriangleId
   return b.x * c.y - b.y * c.x > k_thin * longest;
 }
 
+// Doubled areas between the origin and each side; which is least.
+template <class Real>
+std::uint32_t side_areas(const std::array<Real, 3>& x, const std::array<Real, 3>& y, std::array<Real, 3>& area) {
+  area = {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
+  return area[1] < area[0] ? (area[2] < area[1] ? 2 : 1) : (area[2] < area[0] ? 2 : 0);
+}
+
 }  // namespace
 
-// Towards the edge that the point is farthest beyond.
+// Towards the edge that the point is farthest beyond. Floats tell the way; where they say that it is there, doubles do:
+// in a thin triangle a side's rounding would move the point along it.
 delaunay::TriangleId QuickLocation::walk(const Vec2& point, delaunay::TriangleId t,
                                          std::array<double, 3>& weights) const {
-  const auto x = static_cast<float>((point.x - low_.x) * scale_);
-  const auto y = static_cast<float>((point.y - low_.y) * scale_);
+  const Vec2 exact = (point - low_) * scale_;
+  const auto x = static_cast<float>(exact.x);
+  const auto y = static_cast<float>(exact.y);
   constexpr int k_most_steps = 64;
   for (int step = 0; step < k_most_steps && t != delaunay::k_none; ++step) {
     const Triangle& at = triangles_[t];
-    const std::array<float, 3> dx = {at.x[0] - x, at.x[1] - x, at.x[2] - x};
-    const std::array<float, 3> dy = {at.y[0] - y, at.y[1] - y, at.y[2] - y};
-    const std::array<float, 3> area = {dx[1] * dy[2] - dx[2] * dy[1], dx[2] * dy[0] - dx[0] * dy[2],
-                                       dx[0] * dy[1] - dx[1] * dy[0]};
-    const std::uint32_t least = area[1] < area[0] ? (area[2] < area[1] ? 2 : 1) : (area[2] < area[0] ? 2 : 0);
+    std::array<float, 3> area;
+    std::uint32_t least =
+        side_areas<float>({at.x[0] - x, at.x[1] - x, at.x[2] - x}, {at.y[0] - y, at.y[1] - y, at.y[2] - y}, area);
     if (area[least] >= 0) {
-      weights = {area[0], area[1], area[2]};
-      const double sum = weights[0] + weights[1] + weights[2];
-      for (double& weight : weights) {
-        weight /= sum;
+      least = side_areas<double>({at.x[0] - exact.x, at.x[1] - exact.x, at.x[2] - exact.x},
+                                 {at.y[0] - exact.y, at.y[1] - exact.y, at.y[2] - exact.y}, weights);
+      if (weights[least] >= 0) {
+        const double sum = weights[0] + weights[1] + weights[2];
+        for (double& weight : weights) {
+          weight /= sum;
+        }
+        return sum > 0 ? t : delaunay::k_none;
       }
-      return sum > 0 ? t : delaunay::k_none;
     }
     t = at.beyond[least];
   }

@@ -27,7 +27,7 @@ std::uint32_t Refinement::find_mark(const Mark& square) const {
 
 void Refinement::mark(std::uint32_t facet, std::uint8_t level, const Vec2& point) {
   const double side = spacing(level);
-  const Mark centre{facet, level, true, square_of(point.x, side), square_of(point.y, side)};
+  const Mark centre{facet, level, false, square_of(point.x, side), square_of(point.y, side)};
   if (const std::uint32_t known = find_mark(centre); known != IndexTable::k_absent && marks_[known].is_centre) {
     return;
   }

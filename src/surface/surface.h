@@ -34,7 +34,7 @@ struct SurfaceOptions {
   std::uint32_t border_levels = 0;   ///< that sites on sharp edges are raised by before there is light
   double contact_spacing = 0;        ///< gaps narrower than this are resolved to this alone before there is light
   bool raises_first = false;         ///< whether borders and contacts are raised so, before there are shares
-  std::uint32_t max_sites = 0;       ///< of a surface at which that ends (first_levels.h); 0: no limit
+  std::uint32_t max_sites = 0;       ///< at which that ends (first_levels.h); 0: no limit
 };
 
 struct Site {

@@ -108,6 +108,49 @@ TEST(WantedSites, LieWhereTheyAreWanted) {
   }
 }
 
+// One that would lead beyond the limit leaves nothing behind: when there is room it comes as if for the first time.
+TEST(WantedSites, WhatALimitTookBackComesWhenItIsLifted) {
+  const SurfaceOptions options{Lattice::hexagonal, 0.125, 0, 0.125 / 16};
+  const auto refine_about_a_point = [](const MadeSurface& made) {
+    for (std::uint32_t level = 0; level < 4; ++level) {
+      std::vector<std::uint32_t> sites;
+      for (std::uint32_t site = 0; site < made.surface.sites().size(); ++site) {
+        if (made.surface.level_of(site) == level &&
+            glm::distance(made.surface.sites()[site].position, Vec3(0.4, 0.45, 0)) <
+                std::ldexp(0.125, -static_cast<int>(level))) {
+          sites.push_back(site);
+        }
+      }
+      made.surface.refine(sites);
+    }
+  };
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(-0.15, 0.15);
+  int met = 0;
+  for (int k = 0; k < 60; ++k) {
+    const std::array wanted = {WantedSite{0, Vec3(0.4 + uniform(random), 0.45 + uniform(random), 0)}};
+    const MadeSurface free(unit_floor(), options), limited(unit_floor(), options);
+    refine_about_a_point(free);
+    refine_about_a_point(limited);
+    const auto before = static_cast<std::uint32_t>(free.surface.sites().size());
+    free.surface.refine({}, 0, wanted);
+    if (free.surface.sites().size() < before + 2) {
+      continue;
+    }
+    ++met;
+    limited.surface.refine({}, before + 1, wanted);
+    EXPECT_EQ(limited.surface.sites().size(), before);
+    limited.surface.refine({}, 0, wanted);
+    ASSERT_EQ(limited.surface.sites().size(), free.surface.sites().size());
+    for (std::uint32_t site = 0; site < free.surface.sites().size(); ++site) {
+      EXPECT_EQ(limited.surface.sites()[site].position, free.surface.sites()[site].position);
+      EXPECT_EQ(limited.surface.level_of(site), free.surface.level_of(site));
+    }
+    expect_balanced(limited);
+  }
+  EXPECT_GT(met, 5);
+}
+
 TEST(WantedSites, AreLeftOutWhereTheyWouldBeTooNear) {
   MadeSurface made(unit_floor(), {Lattice::quadrilateral, 0.25, 0, 0.125});
   const std::size_t before = made.surface.sites().size();
