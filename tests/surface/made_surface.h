@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -177,6 +178,21 @@ inline void audit_cells(const MadeSurface& made) {
     const Vec3 normal = made.facets.facets[share.facet].frame.normal * (share.back ? -1.0 : 1.0);
     surface.cell(s, polygon);
     ASSERT_NEAR(polygon_area(polygon, normal), share.area, 1e-12 * facet_area + 1e-9 * share.area) << "share " << s;
+  }
+}
+
+/// Levels of sites that are joined by an edge differ by at most one.
+inline void expect_balanced(const MadeSurface& made) {
+  for (std::uint32_t facet = 0; facet < made.facets.facets.size(); ++facet) {
+    for (const ShareTriangle& triangle : made.surface.triangles(facet)) {
+      std::array<int, 3> levels;
+      for (std::size_t k = 0; k < 3; ++k) {
+        levels[k] = static_cast<int>(
+            made.surface.level_of(made.surface.samples()[made.surface.shares()[triangle[k]].sample].site));
+      }
+      const auto [least, most] = std::minmax_element(levels.begin(), levels.end());
+      EXPECT_LE(*most - *least, 1) << "facet " << facet << " of " << made.facets.facets.size();
+    }
   }
 }
 

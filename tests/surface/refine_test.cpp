@@ -72,24 +72,10 @@ std::vector<Point> positions(const Surface& surface) {
   return points;
 }
 
-void expect_balanced(const MadeSurface& made) {
-  for (std::uint32_t facet = 0; facet < made.facets.facets.size(); ++facet) {
-    for (const ShareTriangle& triangle : made.surface.triangles(facet)) {
-      std::array<int, 3> levels;
-      for (std::size_t k = 0; k < 3; ++k) {
-        levels[k] = static_cast<int>(
-            made.surface.level_of(made.surface.samples()[made.surface.shares()[triangle[k]].sample].site));
-      }
-      const auto [least, most] = std::minmax_element(levels.begin(), levels.end());
-      EXPECT_LE(*most - *least, 1) << "facet " << facet << " of " << made.facets.facets.size();
-    }
-  }
-}
-
 void expect_true(const MadeSurface& made) {
   test::audit(made);
   test::audit_cells(made);
-  expect_balanced(made);
+  test::expect_balanced(made);
 }
 
 std::vector<std::uint32_t> all_below(const Surface& surface, std::uint32_t level) {
@@ -333,34 +319,6 @@ TEST(Refine, KeepsToTheSmallestSpacingAndTheMostSites) {
   EXPECT_TRUE(all_below(made.surface, 2).empty());
   EXPECT_EQ(positions(made.surface), positions(MadeSurface(room(), {Lattice::hexagonal, 0.8, 2, 0}).surface));
   EXPECT_THROW(made.surface.refine(std::vector<std::uint32_t>{1u << 30}), Error);
-}
-
-// Where a limit is met and lifted again, what was undone there is asked for as if for the first time.
-TEST(Refine, WhatALimitTookBackComesWhenItIsLifted) {
-  constexpr std::uint32_t k_site = 0;
-  constexpr std::uint32_t k_levels = 4;
-  const SurfaceOptions deep = options(0.9, k_levels);
-  MadeSurface free(room(), deep);
-  const auto first = static_cast<std::uint32_t>(free.surface.sites().size());
-  for (std::uint32_t round = 0; round < k_levels; ++round) {
-    free.surface.refine(std::array{k_site});
-  }
-  const auto all = static_cast<std::uint32_t>(free.surface.sites().size());
-  std::uint32_t met = 0;
-  for (std::uint32_t most = first + 1; most < all; most += (all - first) / 20 + 1) {
-    MadeSurface made(room(), deep);
-    while (made.surface.level_of(k_site) < k_levels) {
-      const std::uint32_t before = made.surface.level_of(k_site);
-      made.surface.refine(std::array{k_site}, most);
-      if (made.surface.level_of(k_site) == before) {
-        ++met;
-        made.surface.refine(std::array{k_site});
-      }
-    }
-    EXPECT_EQ(positions(made.surface), positions(free.surface)) << most;
-    expect_true(made);
-  }
-  EXPECT_GT(met, 10u);
 }
 
 // One triangulation after several raisings is what there is after one for each; until then samples are as they were.

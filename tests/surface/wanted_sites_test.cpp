@@ -28,19 +28,6 @@ double distance_to_nearest(const Surface& surface, const Vec3& point, std::size_
   return least;
 }
 
-void expect_balanced(const MadeSurface& made) {
-  for (std::uint32_t facet = 0; facet < made.facets.facets.size(); ++facet) {
-    for (const ShareTriangle& triangle : made.surface.triangles(facet)) {
-      std::array<int, 3> levels;
-      for (std::size_t k = 0; k < 3; ++k) {
-        levels[k] = static_cast<int>(
-            made.surface.level_of(made.surface.samples()[made.surface.shares()[triangle[k]].sample].site));
-      }
-      EXPECT_LE(*std::max_element(levels.begin(), levels.end()) - *std::min_element(levels.begin(), levels.end()), 1);
-    }
-  }
-}
-
 // A shadow's edge along a line: raised as refinement would, then a site where the line crosses each triangle's edge.
 TEST(WantedSites, LieWhereTheyAreWanted) {
   for (const Lattice lattice : {Lattice::hexagonal, Lattice::quadrilateral}) {
@@ -87,7 +74,7 @@ TEST(WantedSites, LieWhereTheyAreWanted) {
               static_cast<std::ptrdiff_t>(samples));
     test::audit(made);
     test::audit_cells(made);
-    expect_balanced(made);
+    test::expect_balanced(made);
 
     // They stay where they are as refinement goes on about them.
     std::mt19937 random(2);
@@ -100,55 +87,12 @@ TEST(WantedSites, LieWhereTheyAreWanted) {
       made.surface.refine(more);
       test::audit(made);
       test::audit_cells(made);
-      expect_balanced(made);
+      test::expect_balanced(made);
     }
     for (std::size_t k = 0; k < sites.size(); ++k) {
       EXPECT_EQ(made.surface.sites()[k].position, sites[k].position);
     }
   }
-}
-
-// One that would lead beyond the limit leaves nothing behind: when there is room it comes as if for the first time.
-TEST(WantedSites, WhatALimitTookBackComesWhenItIsLifted) {
-  const SurfaceOptions options{Lattice::hexagonal, 0.125, 0, 0.125 / 16};
-  const auto refine_about_a_point = [](const MadeSurface& made) {
-    for (std::uint32_t level = 0; level < 4; ++level) {
-      std::vector<std::uint32_t> sites;
-      for (std::uint32_t site = 0; site < made.surface.sites().size(); ++site) {
-        if (made.surface.level_of(site) == level &&
-            glm::distance(made.surface.sites()[site].position, Vec3(0.4, 0.45, 0)) <
-                std::ldexp(0.125, -static_cast<int>(level))) {
-          sites.push_back(site);
-        }
-      }
-      made.surface.refine(sites);
-    }
-  };
-  std::mt19937 random(11);
-  std::uniform_real_distribution<double> uniform(-0.15, 0.15);
-  int met = 0;
-  for (int k = 0; k < 60; ++k) {
-    const std::array wanted = {WantedSite{0, Vec3(0.4 + uniform(random), 0.45 + uniform(random), 0)}};
-    const MadeSurface free(unit_floor(), options), limited(unit_floor(), options);
-    refine_about_a_point(free);
-    refine_about_a_point(limited);
-    const auto before = static_cast<std::uint32_t>(free.surface.sites().size());
-    free.surface.refine({}, 0, wanted);
-    if (free.surface.sites().size() < before + 2) {
-      continue;
-    }
-    ++met;
-    limited.surface.refine({}, before + 1, wanted);
-    EXPECT_EQ(limited.surface.sites().size(), before);
-    limited.surface.refine({}, 0, wanted);
-    ASSERT_EQ(limited.surface.sites().size(), free.surface.sites().size());
-    for (std::uint32_t site = 0; site < free.surface.sites().size(); ++site) {
-      EXPECT_EQ(limited.surface.sites()[site].position, free.surface.sites()[site].position);
-      EXPECT_EQ(limited.surface.level_of(site), free.surface.level_of(site));
-    }
-    expect_balanced(limited);
-  }
-  EXPECT_GT(met, 5);
 }
 
 TEST(WantedSites, AreLeftOutWhereTheyWouldBeTooNear) {
