@@ -49,15 +49,12 @@ void* HostMemory::do_allocate(std::size_t bytes, std::size_t alignment) {
   if (!memory) {
     throw std::bad_alloc();
   }
-  const std::uint64_t live = live_.fetch_add(bytes, std::memory_order_relaxed) + bytes;
-  std::uint64_t peak = peak_.load(std::memory_order_relaxed);
-  while (live > peak && !peak_.compare_exchange_weak(peak, live, std::memory_order_relaxed)) {
-  }
+  count_.add(static_cast<std::int64_t>(bytes));
   return memory;
 }
 
 void HostMemory::do_deallocate(void* memory, std::size_t bytes, std::size_t alignment) {
-  live_.fetch_sub(bytes, std::memory_order_relaxed);
+  count_.add(-static_cast<std::int64_t>(bytes));
   if (release_) {
     release_(user_, memory, bytes, alignment);
   } else if (!acquire_) {

@@ -1,11 +1,11 @@
 // The host's allocator as a std::pmr::memory_resource: everything radvor itself keeps in memory comes from here.
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
 
+#include "base/byte_count.h"
 #include "base/regions.h"
 
 namespace radvor {
@@ -18,8 +18,8 @@ class HostMemory final : public std::pmr::memory_resource {
   /// NULL callbacks: the C++ runtime's aligned new and delete, and regions for what is large.
   HostMemory(Acquire acquire, Release release, void* user) noexcept;
 
-  std::uint64_t live_bytes() const noexcept { return live_.load(std::memory_order_relaxed); }
-  std::uint64_t peak_bytes() const noexcept { return peak_.load(std::memory_order_relaxed); }
+  std::uint64_t live_bytes() const noexcept { return count_.live(); }
+  std::uint64_t peak_bytes() const noexcept { return count_.peak(); }
 
  private:
   void* do_allocate(std::size_t bytes, std::size_t alignment) override;  // throws std::bad_alloc
@@ -33,8 +33,7 @@ class HostMemory final : public std::pmr::memory_resource {
   Release release_;
   void* user_;
   Regions regions_;
-  std::atomic<std::uint64_t> live_{0};
-  std::atomic<std::uint64_t> peak_{0};
+  ByteCount count_;
 };
 
 }  // namespace radvor

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 #include <new>
+#include <thread>
 #include <vector>
 
 namespace radvor {
@@ -35,6 +36,43 @@ TEST(HostMemory, OwnBlocksOfAnySizeAndAlignment) {
   }
   EXPECT_EQ(memory.live_bytes(), 0u);
   EXPECT_EQ(memory.peak_bytes(), live);
+}
+
+// Threads add up for themselves: in the end nothing is lost, and the peak is what it was to 1 / 256 for each.
+TEST(HostMemory, ManyThreadsCountTogether) {
+  constexpr std::uint32_t k_threads = 40;  // more than there are counters for
+  constexpr std::size_t k_kept = 200, k_bytes = 1000;
+  HostMemory memory(nullptr, nullptr, nullptr);
+  const auto on_all = [](auto&& work) {
+    std::vector<std::thread> threads;
+    for (std::uint32_t thread = 0; thread < k_threads; ++thread) {
+      threads.emplace_back([&, thread] { work(thread); });
+    }
+    for (std::thread& thread : threads) {
+      thread.join();
+    }
+  };
+  std::vector<std::vector<void*>> blocks(k_threads);
+  on_all([&](std::uint32_t thread) {
+    for (std::size_t k = 0; k < 10 * k_kept; ++k) {
+      void* const block = memory.allocate(k_bytes, 16);
+      if (k % 10 == 0) {
+        blocks[thread].push_back(block);
+      } else {
+        memory.deallocate(block, k_bytes, 16);
+      }
+    }
+  });
+  constexpr std::uint64_t k_live = k_threads * k_kept * k_bytes;
+  EXPECT_EQ(memory.live_bytes(), k_live);
+  on_all([&](std::uint32_t thread) {
+    for (void* const block : blocks[k_threads - 1 - thread]) {  // given back by others than took them
+      memory.deallocate(block, k_bytes, 16);
+    }
+  });
+  EXPECT_EQ(memory.live_bytes(), 0u);
+  EXPECT_GE(memory.peak_bytes(), k_live - k_live * k_threads / 256);
+  EXPECT_LE(memory.peak_bytes(), k_live + k_threads * k_bytes + k_live * k_threads / 256);
 }
 
 TEST(HostMemory, MoreThanThereIsIsRefused) {
