@@ -18,8 +18,9 @@ Refinement::Refinement(SurfaceParts& parts)
       lattice_finest_(parts.options.element_levels + finest_),
       table_(parts.sites.size(), parts.memory),
       clearance_(parts.memory),
+      refused_table_(0, parts.memory),
+      refused_(parts.memory),
       marks_(parts.memory),
-      mark_table_(0, parts.memory),
       first_edge_(parts.memory),
       edges_(parts.memory),
       ground_of_(parts.records.size(), k_none, parts.memory),
@@ -38,7 +39,7 @@ void Refinement::raise(std::span<const std::uint32_t> sites, std::uint32_t max_s
   for (const std::uint32_t site : sites) {
     const auto level = static_cast<std::uint8_t>(levels[site] + 1);
     if (level <= finest_) {
-      const Count before = begin_step();
+      const std::size_t before = begin_step();
       need(site, level);
       if (!balance(max_sites > 0 ? max_sites : k_none)) {
         roll_back(before);
@@ -48,9 +49,10 @@ void Refinement::raise(std::span<const std::uint32_t> sites, std::uint32_t max_s
   }
 }
 
-Refinement::Count Refinement::begin_step() {
+std::size_t Refinement::begin_step() {
   raised_.clear();
-  return {parts_.sites.size(), marks_.size()};
+  marks_.begin_step();
+  return parts_.sites.size();
 }
 
 // Raises what is pending, and all that this asks for. False where there would be too many sites; then what was done is
@@ -76,21 +78,23 @@ bool Refinement::balance(std::size_t max_sites) {
   return true;
 }
 
-void Refinement::roll_back(const Count& before) {
+void Refinement::roll_back(std::size_t sites_before) {
   pending_.clear();
   for (const std::uint32_t site : raised_) {
     --parts_.levels[site];
   }
-  while (!irregular_.empty() && irregular_.back().site >= before.sites) {
+  while (!irregular_.empty() && irregular_.back().site >= sites_before) {
     ground_of_[parts_.places[irregular_.back().site].facet] = k_none;  // to be made without it
     irregular_.pop_back();
+    refused_.clear();  // it may have been in the way
+    refused_table_ = IndexTable(0, parts_.memory);
   }
-  parts_.sites.resize(before.sites);
-  parts_.places.resize(before.sites);
-  parts_.levels.resize(before.sites);
-  clearance_.resize(before.sites);
+  parts_.sites.resize(sites_before);
+  parts_.places.resize(sites_before);
+  parts_.levels.resize(sites_before);
+  clearance_.resize(sites_before);
   fill_table();
-  keep_marks(before.marks);
+  marks_.undo();
 }
 
 void Refinement::need(std::uint32_t site, std::uint8_t level) {
@@ -179,20 +183,25 @@ std::uint32_t Refinement::lattice_site(std::uint32_t facet, const LatticeIndex& 
   if (known != k_none) {
     return known;
   }
+  if (is_refused(facet, index, level)) {
+    return k_none;
+  }
   const FacetGround& on = ground(facet);
   const Vec2 point = on.lattice().point(lattice_finest_, index);
   std::uint8_t birth = coarsest(index.i, index.j);
   double clearance = from_clearance - glm::distance(point, from);
   if (clearance < spacing(birth)) {
     if (clearance <= 0 && !on.encloses(point)) {
+      refuse(facet, index, k_never);
       return k_none;
     }
     clearance = on.clearance(point, farthest());
   }
-  while (birth <= level && clearance < k_half_spacing * spacing(birth)) {
+  while (birth <= finest_ && clearance < k_half_spacing * spacing(birth)) {
     ++birth;
   }
   if (birth > level) {
+    refuse(facet, index, birth);
     return k_none;
   }
   const std::uint32_t site = append(on.frame().to_world(point), birth, {facet, true, index}, clearance);

@@ -23,6 +23,7 @@
 #include "scene/index_table.h"
 #include "surface/facet_ground.h"
 #include "surface/make_surface.h"
+#include "surface/marked_squares.h"
 #include "surface/surface_parts.h"
 
 namespace radvor {
@@ -48,27 +49,23 @@ class Refinement {
     std::uint32_t site;
     std::uint8_t level;
   };
-  /// A square of a facet's plane in which all sites are raised to a level at least; its side is that level's spacing.
-  struct Mark {
+  /// A place on a facet's lattice that has no site before a level, since it is too near to an obstacle.
+  struct Refused {
     std::uint32_t facet;
-    std::uint8_t level;
-    bool is_centre = false;  ///< what mark() marks about it is marked
-    std::int64_t x, y;
-    bool is_at(const Mark& other) const {
-      return facet == other.facet && level == other.level && x == other.x && y == other.y;
+    std::uint8_t birth;
+    LatticeIndex index;
+    bool is_at(std::uint32_t on, const LatticeIndex& there) const {
+      return facet == on && index.i == there.i && index.j == there.j;
     }
   };
+  static constexpr std::uint8_t k_never = 255;  ///< it is outside
 
-  /// How much there is of what a step adds to.
-  struct Count {
-    std::size_t sites, marks;
-  };
-
-  Count begin_step();
+  /// What follows can be undone. Returns how many sites there are.
+  std::size_t begin_step();
   bool balance(std::size_t max_sites);
   bool is_free(std::uint32_t facet, const Vec2& point);
   std::uint8_t level_at(std::uint32_t facet, const Vec2& point) const;
-  void roll_back(const Count& before);
+  void roll_back(std::size_t sites_before);
   void insert_around(std::uint32_t site, std::uint8_t level);
   void insert_on_lattice(std::uint32_t site, std::uint8_t level);
   void insert_on_edges(std::uint32_t site, std::uint8_t level);
@@ -78,10 +75,8 @@ class Refinement {
   void edge_site(std::uint32_t edge, std::int64_t step, std::uint8_t level);
 
   void mark(std::uint32_t facet, std::uint8_t level, const Vec2& point);
-  void keep_marks(std::size_t count);
   void settle(std::uint32_t facet, std::uint8_t level, const Vec2& low, const Vec2& high);
   void follow_marks(std::uint32_t site, std::uint32_t facet, const Vec2& position);
-  std::uint32_t find_mark(const Mark& square) const;
   void need(std::uint32_t site, std::uint8_t level);
 
   std::uint32_t append(const Vec3& position, std::uint8_t level, const SitePlace& place, double clearance);
@@ -98,6 +93,8 @@ class Refinement {
   template <class Function>
   void for_each_facet(std::uint32_t site, Function&& function);
 
+  bool is_refused(std::uint32_t facet, const LatticeIndex& index, std::uint8_t level) const;
+  void refuse(std::uint32_t facet, const LatticeIndex& index, std::uint8_t birth);
   bool is_lattice_facet(std::uint32_t facet) const;
   const FacetGround& ground(std::uint32_t facet);
   double farthest() const { return 3 * spacing(0); }  ///< no clearance beyond is told
@@ -111,8 +108,9 @@ class Refinement {
   std::uint32_t lattice_finest_;        // the same, as a level of the lattice
   IndexTable table_;                    // sites on lattices and edges, by place
   std::pmr::vector<double> clearance_;  // per site of a lattice: at most what it is; < 0: not known yet
-  std::pmr::vector<Mark> marks_;
-  IndexTable mark_table_;
+  IndexTable refused_table_;
+  std::pmr::vector<Refused> refused_;  // most places are asked for again, by each border site near them
+  MarkedSquares marks_;
   std::pmr::vector<std::uint32_t> first_edge_, edges_;  // per welded vertex: the edges that end there and carry sites
   std::pmr::vector<std::uint32_t> ground_of_;           // per facet, or k_none
   std::pmr::deque<std::optional<FacetGround>> grounds_;

@@ -1,8 +1,7 @@
-// Balance near borders: squares of a facet's plane in which all sites, those to come as well, are of a level at least.
+// Balance near borders: in the squares about a site all others, those to come as well, are of a level at least.
 #include <algorithm>
 #include <cmath>
 
-#include "base/hash.h"
 #include "surface/refinement.h"
 
 namespace radvor {
@@ -10,25 +9,16 @@ namespace {
 
 constexpr std::int64_t k_squares = 3;  // that are balanced on each side of a site's own
 
-std::uint64_t hash_square(std::uint32_t facet, std::uint8_t level, std::int64_t x, std::int64_t y) {
-  return hash(std::uint64_t{facet} << 8 | level, static_cast<std::uint64_t>(x), y);
-}
-
 std::int64_t square_of(double coordinate, double side) {
   return static_cast<std::int64_t>(std::floor(coordinate / side));
 }
 
 }  // namespace
 
-std::uint32_t Refinement::find_mark(const Mark& square) const {
-  return mark_table_.find(hash_square(square.facet, square.level, square.x, square.y),
-                          [&](std::uint32_t k) { return marks_[k].is_at(square); });
-}
-
 void Refinement::mark(std::uint32_t facet, std::uint8_t level, const Vec2& point) {
   const double side = spacing(level);
-  const Mark centre{facet, level, false, square_of(point.x, side), square_of(point.y, side)};
-  if (const std::uint32_t known = find_mark(centre); known != IndexTable::k_absent && marks_[known].is_centre) {
+  const MarkedSquares::Square centre{facet, level, square_of(point.x, side), square_of(point.y, side)};
+  if (marks_.is_centre(centre)) {
     return;
   }
   const FacetGround& on = ground(facet);
@@ -39,34 +29,10 @@ void Refinement::mark(std::uint32_t facet, std::uint8_t level, const Vec2& point
   const std::int64_t last_x = bound(point.x, k_squares, on.low().x, on.high().x);
   const std::int64_t first_y = bound(point.y, -k_squares, on.low().y, on.high().y);
   const std::int64_t last_y = bound(point.y, k_squares, on.low().y, on.high().y);
-  const std::size_t before = marks_.size();
-  for (std::int64_t y = first_y; y <= last_y; ++y) {
-    for (std::int64_t x = first_x; x <= last_x; ++x) {
-      const Mark square{facet, level, false, x, y};
-      const auto next = static_cast<std::uint32_t>(marks_.size());
-      if (mark_table_.find_or_insert(hash_square(facet, level, x, y), next,
-                                     [&](std::uint32_t k) { return marks_[k].is_at(square); }) == next) {
-        marks_.push_back(square);
-      }
-    }
-  }
-  if (const std::uint32_t known = find_mark(centre); known != IndexTable::k_absent) {
-    marks_[known].is_centre = true;
-  }
-  if (marks_.size() > before) {
+  const bool some = marks_.mark({facet, level, first_x, first_y}, {facet, level, last_x, last_y});
+  marks_.set_centre(centre);
+  if (some) {
     settle(facet, level, Vec2(first_x, first_y) * side, Vec2(last_x + 1, last_y + 1) * side);
-  }
-}
-
-// The first so many; what lags in the others is not pending any more.
-void Refinement::keep_marks(std::size_t count) {
-  marks_.resize(count);
-  mark_table_ = IndexTable(count, parts_.memory);
-  for (std::uint32_t k = 0; k < count; ++k) {
-    marks_[k].is_centre = false;  // part of what is about it may be gone
-    const Mark& square = marks_[k];
-    mark_table_.find_or_insert(hash_square(square.facet, square.level, square.x, square.y), k,
-                               [](std::uint32_t) { return false; });
   }
 }
 
@@ -121,8 +87,8 @@ void Refinement::settle(std::uint32_t facet, std::uint8_t level, const Vec2& low
 
 void Refinement::follow_marks(std::uint32_t site, std::uint32_t facet, const Vec2& position) {
   for (std::uint8_t level = finest_; !marks_.empty() && level > parts_.levels[site]; --level) {
-    if (find_mark({facet, level, false, square_of(position.x, spacing(level)),
-                   square_of(position.y, spacing(level))}) != IndexTable::k_absent) {
+    const double side = spacing(level);
+    if (marks_.contains({facet, level, square_of(position.x, side), square_of(position.y, side)})) {
       need(site, level);
       return;
     }

@@ -20,7 +20,7 @@ void Refinement::insert(std::span<const WantedSite> wanted, std::uint32_t max_si
     if (!is_free(wish.facet, point)) {
       continue;
     }
-    const Count before = begin_step();
+    const std::size_t before = begin_step();
     const std::uint8_t level = level_at(wish.facet, point);
     const std::uint32_t site =
         append(ground(wish.facet).frame().to_world(point), level, {wish.facet, false, {0, 0}}, 0);

@@ -87,6 +87,23 @@ std::uint32_t Refinement::find_edge_site(std::uint32_t edge, std::int64_t step) 
   });
 }
 
+bool Refinement::is_refused(std::uint32_t facet, const LatticeIndex& index, std::uint8_t level) const {
+  const std::uint32_t known = refused_table_.find(hash_place(k_lattice, facet, index),
+                                                  [&](std::uint32_t k) { return refused_[k].is_at(facet, index); });
+  return known != IndexTable::k_absent && level < refused_[known].birth;
+}
+
+void Refinement::refuse(std::uint32_t facet, const LatticeIndex& index, std::uint8_t birth) {
+  const auto next = static_cast<std::uint32_t>(refused_.size());
+  const std::uint32_t known = refused_table_.find_or_insert(
+      hash_place(k_lattice, facet, index), next, [&](std::uint32_t k) { return refused_[k].is_at(facet, index); });
+  if (known == next) {
+    refused_.push_back({facet, birth, index});
+  } else {
+    refused_[known].birth = birth;  // obstacles have come since
+  }
+}
+
 bool Refinement::is_lattice_facet(std::uint32_t facet) const {
   const FacetRecord& record = parts_.records[facet];
   return record.first_share != k_none && (record.mesh == k_none || !parts_.meshes[record.mesh]->degenerate());

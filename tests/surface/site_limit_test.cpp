@@ -111,5 +111,41 @@ TEST(SiteLimit, AWishThatItTookBackComesWhenItIsLifted) {
   EXPECT_GT(met, 5);
 }
 
+// Nor does it keep others away: the lattice about it is as if it had never been.
+TEST(SiteLimit, AWishThatItTookBackKeepsNothingAway) {
+  const SurfaceOptions options{Lattice::hexagonal, 0.125, 0, 0.125 / 16};
+  const auto raise_near = [](const MadeSurface& made, const Vec3& point, double reach, std::uint32_t levels) {
+    for (std::uint32_t level = 0; level < levels; ++level) {
+      std::vector<std::uint32_t> sites;
+      for (std::uint32_t site = 0; site < made.surface.sites().size(); ++site) {
+        if (made.surface.level_of(site) == level && glm::distance(made.surface.sites()[site].position, point) < reach) {
+          sites.push_back(site);
+        }
+      }
+      made.surface.refine(sites);
+    }
+  };
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(0.3, 0.6);
+  int met = 0;
+  for (int k = 0; k < 100; ++k) {
+    const Vec3 point(uniform(random), uniform(random), 0);
+    const MadeSurface untouched(unit_floor(), options), limited(unit_floor(), options);
+    raise_near(untouched, point, 0.02, 4);
+    raise_near(limited, point, 0.02, 4);
+    const auto before = static_cast<std::uint32_t>(limited.surface.sites().size());
+    const std::array wanted = {WantedSite{0, point + Vec3(0.03, 0, 0)}};
+    limited.surface.refine({}, before + 1, wanted);
+    if (limited.surface.sites().size() != before) {
+      continue;  // there was room for all that it asked for
+    }
+    ++met;
+    raise_near(untouched, point, 0.1, 4);
+    raise_near(limited, point, 0.1, 4);
+    EXPECT_EQ(positions(limited.surface), positions(untouched.surface)) << k;
+  }
+  EXPECT_GT(met, 5);
+}
+
 }  // namespace
 }  // namespace radvor
