@@ -1,5 +1,5 @@
-// Ranges of things of different weight (facets), each about as heavy as a task should be: the heaviest run first, so
-// that no thread begins with the largest facet when the others are done.
+// Ranges of things of different weight (facets), each about as heavy as a task should be. Where that is much work the
+// heaviest run first, so that no thread begins with the largest facet when the others are done.
 #pragma once
 
 #include <algorithm>
@@ -40,6 +40,12 @@ class EvenRanges {
       return ranges_[a].weight != ranges_[b].weight ? ranges_[a].weight > ranges_[b].weight : a < b;
     });
     jobs.for_each(size(), [&](std::uint32_t k) { function(order[k], ranges_[order[k]].begin, ranges_[order[k]].end); });
+  }
+
+  /// The same in no order, for tasks beside each other that touch memory beside each other (Jobs::for_each_in_parts).
+  template <class Function>
+  void for_each_in_parts(const Jobs& jobs, Function&& function) const {
+    jobs.for_each_in_parts(size(), [&](std::uint32_t k) { function(k, ranges_[k].begin, ranges_[k].end); });
   }
 
  private:

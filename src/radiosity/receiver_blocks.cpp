@@ -1,6 +1,9 @@
 #include "radiosity/receiver_blocks.h"
 
 #include <algorithm>
+#include <functional>
+
+#include "base/sort.h"
 
 namespace radvor {
 
@@ -63,7 +66,7 @@ ReceiverBlocks::ReceiverBlocks(const Surface& surface, std::span<const Receiver>
         spread(static_cast<std::uint32_t>(unit.x)) | (spread(static_cast<std::uint32_t>(unit.y)) << 1);
     keys.push_back({samples[s].facet, is_back(samples[s], facets[samples[s].facet]), curve, s});
   }
-  std::sort(keys.begin(), keys.end());
+  sort_side_by_side(keys, host.jobs, std::less<>());
   order_.reserve(keys.size());
   for (const Key& key : keys) {
     order_.push_back(key.sample);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/sort.h"
 #include "radiosity/facet_ranges.h"
 
 namespace radvor {
@@ -162,7 +163,7 @@ std::pmr::vector<std::uint32_t> plan_refinement(const Surface& surface, const Sa
       }
     }
   }
-  std::sort(errors.begin(), errors.end(), [](const EdgeError& x, const EdgeError& y) {
+  sort_side_by_side(errors, host.jobs, [](const EdgeError& x, const EdgeError& y) {
     return x.score != y.score ? x.score > y.score : x.a != y.a ? x.a < y.a : x.b < y.b;
   });
 

@@ -41,7 +41,7 @@ SampleNeighbours::SampleNeighbours(const Surface& surface, Host& host)
   // Each once: counted first, then written.
   const auto in_blocks = [&](auto&& on_sample) {
     constexpr std::uint32_t k_block = 1024;
-    host.jobs.for_each((count + k_block - 1) / k_block, [&](std::uint32_t block) {
+    host.jobs.for_each_in_parts((count + k_block - 1) / k_block, [&](std::uint32_t block) {
       for (std::uint32_t i = block * k_block; i < std::min(count, (block + 1) * k_block); ++i) {
         on_sample(i);
       }

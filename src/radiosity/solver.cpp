@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/sums.h"
 #include "radiosity/method.h"
 #include "scene/find_contacts.h"
 
@@ -162,7 +163,7 @@ void Solver::count(const TransportCounters& counters) {
   stats_.skipped_facing += counters.skipped_facing;
   stats_.skipped_negligible += counters.skipped_negligible;
   stats_.skipped_clear += counters.skipped_clear;
-  stats_.seconds_rays += counters.ray_seconds;
+  stats_.seconds_rays += counters.ray_seconds();
 }
 
 std::uint32_t Solver::next_blocks(std::uint32_t per_thread) const {
@@ -192,11 +193,9 @@ void Solver::shine() {
 
 // Of all receiving sides, scene units squared.
 double Solver::receiving_area() const {
-  double area = 0;
-  for (const Sample& sample : surface->samples()) {
-    area += sample.area;
-  }
-  return area;
+  const auto samples = surface->samples();
+  return sum_side_by_side<double>(samples.size(), host.jobs, &host.memory,
+                                  [&](double& area, std::size_t i) { area += samples[i].area; });
 }
 
 std::uint32_t Solver::sample_of(std::uint32_t front_share, bool back) const {
@@ -206,12 +205,11 @@ std::uint32_t Solver::sample_of(std::uint32_t front_share, bool back) const {
 
 // The mean irradiance over all receiving sides, three channels as one.
 double Solver::mean_of(std::span<const Color> irradiance) const {
-  double received = 0, area = 0;
   const auto samples = surface->samples();
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    received += samples[i].area * sum(irradiance[i]) / 3;
-    area += samples[i].area;
-  }
+  const double received = sum_side_by_side<double>(
+      samples.size(), host.jobs, &host.memory,
+      [&](double& power, std::size_t i) { power += samples[i].area * sum(irradiance[i]) / 3; });
+  const double area = receiving_area();
   return area > 0 ? received / area : 0;
 }
 

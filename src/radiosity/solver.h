@@ -90,6 +90,15 @@ class Solver {
   const BakeStats& counters() const { return stats_; }
 
  private:
+  /// What does not come back of a shot, W.
+  struct Lost {
+    double escaped = 0, on_backs = 0;
+    void operator+=(const Lost& other) {
+      escaped += other.escaped;
+      on_backs += other.on_backs;
+    }
+  };
+
   void glimpse();
   void shine();
   void refine();
@@ -122,11 +131,13 @@ class Solver {
   void interpolate(std::span<const std::uint32_t> samples, std::pmr::vector<Color>& values) const;
   void account();
   void shoot_standout();
-  void lose(std::uint32_t share, const Color& radiosity);
+  Lost lost_of(std::uint32_t share, const Color& radiosity) const;
+  void lose(const Lost& lost);
   bool begin_bounce();
   void add_series(double ratio_of_all);
   void choose_links(std::uint32_t sample);
   void bounce();
+  void end_bounce();
   double noise_of(std::uint32_t record, double spread) const;
   void measure_spreads();
   double noise_of_sky(std::uint32_t sample) const;
@@ -139,9 +150,10 @@ class Solver {
   void fit_between();
   Color punctual_light(const Receiver& receiver, Tracer& tracer) const;
 
-  // Runs work(sample, tracer) for a range of blocks of receivers.
+  // Runs work(sample, tracer) for a range of blocks of receivers, as so many tasks a block: where a block is much work,
+  // threads wait for the last one.
   template <class Work>
-  void over_blocks(std::uint32_t begin, std::uint32_t end, Work&& work);
+  void over_blocks(std::uint32_t begin, std::uint32_t end, Work&& work, std::uint32_t tasks = 1);
   // Runs work(index, tracer) in parallel and sums up what was done.
   template <class Work>
   void over(std::uint32_t begin, std::uint32_t end, Work&& work);
@@ -247,9 +259,12 @@ void Solver::renumber(std::pmr::vector<Value>& values, std::span<const SampleOri
 }
 
 template <class Work>
-void Solver::over_blocks(std::uint32_t begin, std::uint32_t end, Work&& work) {
-  over(begin, end, [&](std::uint32_t block, Tracer& tracer) {
-    for (const std::uint32_t sample : blocks_->block(block)) {
+void Solver::over_blocks(std::uint32_t begin, std::uint32_t end, Work&& work, std::uint32_t tasks) {
+  const std::uint32_t size = (ReceiverBlocks::k_size + tasks - 1) / tasks;
+  over(tasks * begin, tasks * end, [&](std::uint32_t task, Tracer& tracer) {
+    const auto block = blocks_->block(task / tasks);
+    const std::size_t first = std::min<std::size_t>(block.size(), std::size_t{task % tasks} * size);
+    for (const std::uint32_t sample : block.subspan(first, std::min<std::size_t>(size, block.size() - first))) {
       work(sample, tracer);
     }
   });
@@ -258,7 +273,7 @@ void Solver::over_blocks(std::uint32_t begin, std::uint32_t end, Work&& work) {
 template <class Work>
 void Solver::over(std::uint32_t begin, std::uint32_t end, Work&& work) {
   std::pmr::vector<TransportCounters> counters(end - begin, &host.memory);
-  host.jobs.for_each(end - begin, [&](std::uint32_t index) {
+  host.jobs.for_each_in_parts(end - begin, [&](std::uint32_t index) {
     Tracer tracer(*visibility_, skips_);
     work(begin + index, tracer);
     counters[index] = tracer.counters;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/sums.h"
 #include "radiosity/fate.h"
 #include "radiosity/links.h"
 #include "radiosity/method.h"
@@ -64,12 +65,10 @@ void Solver::account() {
 }
 
 double Solver::unshot_luminance() const {
-  double power = 0;
   const auto shares = surface->shares();
-  for (std::size_t s = 0; s < shares.size(); ++s) {
+  return sum_side_by_side<double>(shares.size(), host.jobs, &host.memory, [&](double& power, std::size_t s) {
     power += shares[s].area * luminance(shares[s].albedo * unshot_[s]);
-  }
-  return power;
+  });
 }
 
 // Shoots the patch that stands out farthest at all receivers, while one does: few rays would meet it.
@@ -113,19 +112,22 @@ void Solver::shoot_standout() {
   std::pmr::vector<NodeLight> light(tree.nodes().size(), NodeLight{}, &host.memory);
   for (const Element& element : tree.elements()) {
     light[element.node].radiosity = shares[element.share].albedo * unshot_[element.share];
-    lose(element.share, light[element.node].radiosity);
+    lose(lost_of(element.share, light[element.node].radiosity));
     shot_alone_[element.share] += light[element.node].radiosity;
     unshot_[element.share] = Color(0.0);
   }
   tree.pull(light, host);
 
-  over_blocks(0, blocks_->count(), [&](std::uint32_t sample, Tracer& tracer) {
+  over(0, blocks_->count(), [&](std::uint32_t block, Tracer& tracer) {
     LinkMaker maker(tree, occluder_tree_ ? &*occluder_tree_ : nullptr, {}, &host.memory);
     std::pmr::vector<Link> links(&host.memory);
-    maker.make(receivers_[sample], tree.roots(), tracer, links);
-    incoming_[sample] = Color(0.0);
-    for (const Link& link : links) {
-      incoming_[sample] += sent_along(link, light);
+    for (const std::uint32_t sample : blocks_->block(block)) {
+      links.clear();
+      maker.make(receivers_[sample], tree.roots(), tracer, links);
+      incoming_[sample] = Color(0.0);
+      for (const Link& link : links) {
+        incoming_[sample] += sent_along(link, light);
+      }
     }
   });
   interpolate(interpolated_, incoming_);
@@ -140,21 +142,25 @@ void Solver::shoot_standout() {
 }
 
 // What does not come back of a share's shot.
-void Solver::lose(std::uint32_t share, const Color& radiosity) {
+Solver::Lost Solver::lost_of(std::uint32_t share, const Color& radiosity) const {
   const Share& shot = surface->shares()[share];
   const Outlook& outlook = outlooks_[shot.sample];
-  stats_.escaped_power += shot.area * sum(radiosity) * outlook.open;
-  stats_.absorbed_back_power += shot.area * sum(radiosity) * outlook.backs;
+  const double power = shot.area * sum(radiosity);
+  return {power * outlook.open, power * outlook.backs};
+}
+
+void Solver::lose(const Lost& lost) {
+  stats_.escaped_power += lost.escaped;
+  stats_.absorbed_back_power += lost.on_backs;
 }
 
 // Decides whether another bounce is due; takes what is unshot as what is shot.
 bool Solver::begin_bounce() {
   const double left = unshot_luminance();
   const auto samples = surface->samples();
-  double received = 0;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    received += samples[i].area * luminance(direct[i] + indirect[i]);
-  }
+  const double received = sum_side_by_side<double>(
+      samples.size(), host.jobs, &host.memory,
+      [&](double& all, std::size_t i) { all += samples[i].area * luminance(direct[i] + indirect[i]); });
   // What is left goes on as a geometric series; its ratio is that of the last two bounces.
   const double ratio = bounces_ > 0 && previous_unshot_ > 0 ? std::min(0.99, left / previous_unshot_) : 0.5;
   previous_unshot_ = left;
@@ -176,11 +182,11 @@ bool Solver::begin_bounce() {
     return false;
   }
   const auto shares = surface->shares();
-  for (std::uint32_t s = 0; s < shares.size(); ++s) {
+  lose(sum_side_by_side<Lost>(shares.size(), host.jobs, &host.memory, [&](Lost& lost, std::size_t s) {
     const Color sent = shares[s].albedo * unshot_[s];
     radiosity_[s] = as_sent(sent);
-    lose(s, sent);
-  }
+    lost += lost_of(static_cast<std::uint32_t>(s), sent);
+  }));
   return true;
 }
 
@@ -197,7 +203,7 @@ void Solver::add_series(double ratio_of_all) {
     for (int channel = 0; channel < 3; ++channel) {
       sent[channel] /= 1 - ratio(shares[s].sample, channel);
     }
-    lose(s, sent);
+    lose(lost_of(s, sent));
     unshot_[s] = Color(0.0);
   }
   for (std::uint32_t i = 0; i < incoming_.size(); ++i) {
@@ -227,6 +233,23 @@ void Solver::choose_links(std::uint32_t sample) {
   }
 }
 
+// What the bounce brought is what is unshot.
+void Solver::end_bounce() {
+  constexpr std::size_t k_task = 4 * k_samples_a_task;  // it does next to nothing to each
+  interpolate(interpolated_, incoming_);
+  host.jobs.for_ranges(incoming_.size(), k_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      indirect[i] += incoming_[i];
+    }
+  });
+  const auto shares = surface->shares();
+  host.jobs.for_ranges(shares.size(), k_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) {
+      unshot_[s] = incoming_[shares[s].sample];
+    }
+  });
+}
+
 // All shares together, on some blocks of receivers.
 void Solver::bounce() {
   if (block_ == 0 && !begin_bounce()) {
@@ -251,14 +274,7 @@ void Solver::bounce() {
   if (block_ >= blocks_->count()) {
     block_ = 0;
     ++bounces_;
-    interpolate(interpolated_, incoming_);
-    for (std::size_t i = 0; i < incoming_.size(); ++i) {
-      indirect[i] += incoming_[i];
-    }
-    const auto shares = surface->shares();
-    for (std::size_t s = 0; s < shares.size(); ++s) {
-      unshot_[s] = incoming_[shares[s].sample];
-    }
+    end_bounce();
     stats_.shots += surface->patch_count();
   }
 }

@@ -20,7 +20,8 @@ constexpr std::uint32_t k_rays_of_glimpse = 16;  // one packet
 constexpr std::uint64_t k_seed_of_glimpse = 0x676c696d70736573;
 constexpr float k_wide_open = 0.5f;   // share of the view that is sky, from which on its edges matter less
 constexpr double k_much_finer = 0.3;  // more samples than when all links were last asked what they see of the mesh
-constexpr double k_same_way = 0.95;   // cosine between normals of which one may take the other's light
+constexpr std::uint32_t k_tasks_a_block = 8;
+constexpr double k_same_way = 0.95;  // cosine between normals of which one may take the other's light
 
 }  // namespace
 
@@ -168,10 +169,13 @@ void Solver::look_around() {
     begin_level();
   }
   const std::uint32_t end = next_blocks(in_slices ? 1 : 4);
-  over_blocks(block_, end, [&](std::uint32_t sample, Tracer& tracer) {
-    look_from(sample, ray_counts_[records_[sample] - first_record_], tracer);
-    known_[sample] = 1;
-  });
+  over_blocks(
+      block_, end,
+      [&](std::uint32_t sample, Tracer& tracer) {
+        look_from(sample, ray_counts_[records_[sample] - first_record_], tracer);
+        known_[sample] = 1;
+      },
+      k_tasks_a_block);
   block_ = end;
   if (block_ < blocks_->count()) {
     return;

@@ -95,7 +95,7 @@ void Solver::free_of_noise(std::pmr::vector<Color>& reflected, std::pmr::vector<
   const auto count = static_cast<std::uint32_t>(reflected.size());
   std::pmr::vector<Certainty> certain(count, Certainty{}, &host.memory);
   constexpr std::uint32_t k_block = 256;
-  host.jobs.for_each((count + k_block - 1) / k_block, [&](std::uint32_t block) {
+  host.jobs.for_each_in_parts((count + k_block - 1) / k_block, [&](std::uint32_t block) {
     for (std::uint32_t i = block * k_block; i < std::min(count, (block + 1) * k_block); ++i) {
       certain[i].nearness = outlooks_[i].inverse_distance;
       certain[i].settled = records_[i] == k_none;

@@ -156,28 +156,42 @@ void Solver::follow_receivers(std::span<const SampleOrigin> origins) {
     place_receivers(pending_);
     return;
   }
-  const std::pmr::vector<Receiver> before(receivers_, &host.memory);
-  const std::pmr::vector<std::uint8_t> in_slot_before(in_slot_, &host.memory);
-  std::pmr::vector<std::uint32_t> placed(&host.memory);  // the others are, and are in no slot
+  std::pmr::vector<std::uint8_t> to_place(origins.size(), 0,
+                                          &host.memory);  // the others lie where they did, and in no slot
+  host.jobs.for_ranges(origins.size(), k_samples_a_task, [&](std::size_t begin, std::size_t end) {
+    for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
+      const Receiver here = receiver_at(i, surface->samples()[i].point);
+      const Receiver& now = receivers_[i];
+      to_place[i] =
+          !origins[i].kept || in_slot_[i] != 0 || here.point != now.point || here.lifted != now.lifted ? 1 : 0;
+    }
+  });
+  std::pmr::vector<std::uint32_t> placed(&host.memory);
+  struct Before {
+    Receiver receiver;
+    std::uint8_t in_slot;
+  };
+  std::pmr::vector<Before> before(&host.memory);  // of each that is placed
   for (std::uint32_t i = 0; i < origins.size(); ++i) {
-    const Receiver here = receiver_at(i, surface->samples()[i].point);
-    if (!origins[i].kept || in_slot_[i] != 0 || here.point != before[i].point || here.lifted != before[i].lifted) {
+    if (to_place[i] != 0) {
       placed.push_back(i);
+      before.push_back({receivers_[i], in_slot_[i]});
     }
   }
   place_receivers(placed);
-  for (const std::uint32_t i : placed) {
+  for (std::size_t k = 0; k < placed.size(); ++k) {
+    const std::uint32_t i = placed[k];
     if (!origins[i].kept) {
       continue;
     }
-    if (glm::distance(before[i].point, receivers_[i].point) > k_moved * glm::length(way_inside(i))) {
+    if (glm::distance(before[k].receiver.point, receivers_[i].point) > k_moved * glm::length(way_inside(i))) {
       due_again_.push_back({i, direct[i]});
       direct[i] = Color(0.0);
       sights_[i] = 0;
       pending_.push_back(i);
     } else {
-      receivers_[i] = before[i];
-      in_slot_[i] = in_slot_before[i];
+      receivers_[i] = before[k].receiver;
+      in_slot_[i] = before[k].in_slot;
     }
   }
 }

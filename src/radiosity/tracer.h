@@ -25,7 +25,8 @@ struct TransportCounters {
   std::uint64_t skipped_facing = 0;
   std::uint64_t skipped_negligible = 0;
   std::uint64_t skipped_clear = 0;
-  double ray_seconds = 0;  ///< CPU time, extrapolated from every 64th packet
+  std::uint64_t calls = 0, timed_calls = 0;  ///< of the visibility; of every 64th in a task the time is taken
+  double timed_seconds = 0;
 
   TransportCounters& operator+=(const TransportCounters& other) {
     rays += other.rays;
@@ -34,8 +35,15 @@ struct TransportCounters {
     skipped_facing += other.skipped_facing;
     skipped_negligible += other.skipped_negligible;
     skipped_clear += other.skipped_clear;
-    ray_seconds += other.ray_seconds;
+    calls += other.calls;
+    timed_calls += other.timed_calls;
+    timed_seconds += other.timed_seconds;
     return *this;
+  }
+
+  /// CPU time of all calls, by those that were timed.
+  double ray_seconds() const {
+    return timed_calls > 0 ? timed_seconds * static_cast<double>(calls) / static_cast<double>(timed_calls) : 0;
   }
 };
 
@@ -70,20 +78,19 @@ class Tracer {
  private:
   static constexpr std::uint32_t k_timed = 64;
 
-  // Every 64th call by the clock, for itself and those before it.
   template <class Call>
   void timed(Call&& call) {
-    if (calls_++ % k_timed != 0) {
+    if (counters.calls++ % k_timed != 0) {
       call();
       return;
     }
     const auto begin = std::chrono::steady_clock::now();
     call();
-    counters.ray_seconds += k_timed * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    counters.timed_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    ++counters.timed_calls;
   }
 
   const Visibility& visibility_;
-  std::uint32_t calls_ = 0;
 };
 
 }  // namespace radvor

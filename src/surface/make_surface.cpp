@@ -189,14 +189,15 @@ class SurfaceMaker {
       record.first_share = shares;
       shares += record.two_sided ? 2 * record.share_count : record.share_count;
     }
-    parts_.ranges_by_shares().for_each(parts_.host.jobs, [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
-      for (std::uint32_t facet = begin; facet < end; ++facet) {
-        const FacetRecord& record = parts_.records[facet];
-        if (record.first_share != k_none && record.mesh != k_none) {
-          parts_.meshes[record.mesh]->number_shares(record.first_share - before[facet].first_share);
-        }
-      }
-    });
+    parts_.ranges_by_shares().for_each_in_parts(
+        parts_.host.jobs, [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
+          for (std::uint32_t facet = begin; facet < end; ++facet) {
+            const FacetRecord& record = parts_.records[facet];
+            if (record.first_share != k_none && record.mesh != k_none) {
+              parts_.meshes[record.mesh]->number_shares(record.first_share - before[facet].first_share);
+            }
+          }
+        });
     std::uint32_t degenerate = 0;
     for (const std::uint32_t facet : facets_) {
       if (parts_.records[facet].mesh != k_none) {
@@ -271,13 +272,14 @@ class SurfaceMaker {
 
   // What has not changed, under its new numbers.
   void copy_shares(const SurfaceBefore& before) {
-    parts_.ranges_by_shares().for_each(parts_.host.jobs, [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
-      for (std::uint32_t facet = begin; facet < end; ++facet) {
-        if (parts_.records[facet].first_share != k_none && !before.is_changed(facet)) {
-          copy_shares(before, parts_.records[facet], before.records[facet].first_share);
-        }
-      }
-    });
+    parts_.ranges_by_shares().for_each_in_parts(
+        parts_.host.jobs, [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
+          for (std::uint32_t facet = begin; facet < end; ++facet) {
+            if (parts_.records[facet].first_share != k_none && !before.is_changed(facet)) {
+              copy_shares(before, parts_.records[facet], before.records[facet].first_share);
+            }
+          }
+        });
   }
 
   void copy_shares(const SurfaceBefore& before, const FacetRecord& record, std::uint32_t from) {

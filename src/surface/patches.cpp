@@ -46,7 +46,7 @@ class PatchMaker {
 
   // Numbered from 0 in each facet.
   void find_own() {
-    parts_.ranges_by_shares().for_each(parts_.host.jobs, [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
+    const auto find = [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
       std::pmr::vector<std::uint32_t> patch_of(parts_.memory);
       for (std::uint32_t facet = begin; facet < end; ++facet) {
         const FacetRecord& record = parts_.records[facet];
@@ -62,7 +62,8 @@ class PatchMaker {
           }
         }
       }
-    });
+    };
+    parts_.ranges_by_shares().for_each(parts_.host.jobs, find);
   }
 
   void number_own(const FacetRecord& record, std::uint32_t own) {

@@ -30,16 +30,17 @@ class OriginFinder {
 
   // Shares that were there before, on unchanged facets and of old sites on changed ones.
   void match_shares(std::span<const std::uint32_t> changed) {
-    parts_.ranges_by_shares().for_each(parts_.host.jobs, [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
-      for (std::uint32_t facet = begin; facet < end; ++facet) {
-        const FacetRecord& record = parts_.records[facet];
-        if (record.first_share != k_none && !before_.is_changed(facet)) {
-          const auto first = old_share_.begin() + record.first_share;
-          const std::uint32_t count = record.two_sided ? 2 * record.share_count : record.share_count;
-          std::iota(first, first + count, before_.records[facet].first_share);
-        }
-      }
-    });
+    parts_.ranges_by_shares().for_each_in_parts(
+        parts_.host.jobs, [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
+          for (std::uint32_t facet = begin; facet < end; ++facet) {
+            const FacetRecord& record = parts_.records[facet];
+            if (record.first_share != k_none && !before_.is_changed(facet)) {
+              const auto first = old_share_.begin() + record.first_share;
+              const std::uint32_t count = record.two_sided ? 2 * record.share_count : record.share_count;
+              std::iota(first, first + count, before_.records[facet].first_share);
+            }
+          }
+        });
     constexpr double k_task = 1024;
     const EvenRanges ranges(
         changed.size(), k_task, [&](std::uint32_t k) { return 1.0 + parts_.records[changed[k]].share_count; },
