@@ -180,15 +180,7 @@ TEST(GivenSites, EverythingRaisedIsTheUniformMeshAroundThem) {
       made.surface.refine(sites);
     }
     const MadeSurface uniform(floor_with(wanted), {lattice, 0.2, 2, 0.05});
-    const auto positions = [](const Surface& surface) {
-      std::vector<std::array<double, 3>> points;
-      for (const Site& site : surface.sites()) {
-        points.push_back({site.position.x, site.position.y, site.position.z});
-      }
-      std::sort(points.begin(), points.end());
-      return points;
-    };
-    EXPECT_TRUE(positions(made.surface) == positions(uniform.surface));
+    EXPECT_TRUE(test::positions(made.surface) == test::positions(uniform.surface));
   }
 }
 

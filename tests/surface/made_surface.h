@@ -52,6 +52,16 @@ inline const Site& site_of(const Surface& surface, std::uint32_t share) {
   return surface.sites()[surface.samples()[surface.shares()[share].sample].site];
 }
 
+/// Where all sites are, in ascending order.
+inline std::vector<std::array<double, 3>> positions(const Surface& surface) {
+  std::vector<std::array<double, 3>> points;
+  for (const Site& site : surface.sites()) {
+    points.push_back({site.position.x, site.position.y, site.position.z});
+  }
+  std::sort(points.begin(), points.end());
+  return points;
+}
+
 /// Edges whose two sides do not match, by the bits of their ends' positions.
 inline std::size_t unmatched_edges(const MadeSurface& made) {
   using Point = std::tuple<double, double, double>;

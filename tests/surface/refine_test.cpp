@@ -15,17 +15,14 @@ namespace {
 
 using test::heap;
 using test::MadeSurface;
+using test::positions;
+using test::room;
 using test::SceneBuilder;
 
 constexpr Lattice k_both[] = {Lattice::hexagonal, Lattice::quadrilateral};
 
 using Make = Scene (*)();
 
-Scene room() {
-  SceneBuilder builder(heap());
-  test::room_with_boxes(builder);
-  return builder.take();
-}
 Scene l_shaped() {
   SceneBuilder builder(heap());
   test::l_shaped_room(builder);
@@ -62,15 +59,6 @@ SurfaceOptions options(double spacing, std::uint32_t refinements, Lattice lattic
 }
 
 using Point = std::array<double, 3>;
-
-std::vector<Point> positions(const Surface& surface) {
-  std::vector<Point> points;
-  for (const Site& site : surface.sites()) {
-    points.push_back({site.position.x, site.position.y, site.position.z});
-  }
-  std::sort(points.begin(), points.end());
-  return points;
-}
 
 void expect_true(const MadeSurface& made) {
   test::audit(made);

@@ -13,30 +13,10 @@
 namespace radvor {
 namespace {
 
-using test::heap;
 using test::MadeSurface;
-using test::SceneBuilder;
-
-Scene room() {
-  SceneBuilder builder(heap());
-  test::room_with_boxes(builder);
-  return builder.take();
-}
-
-Scene unit_floor() {
-  SceneBuilder builder(heap());
-  builder.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
-  return builder.take();
-}
-
-std::vector<std::array<double, 3>> positions(const Surface& surface) {
-  std::vector<std::array<double, 3>> points;
-  for (const Site& site : surface.sites()) {
-    points.push_back({site.position.x, site.position.y, site.position.z});
-  }
-  std::sort(points.begin(), points.end());
-  return points;
-}
+using test::positions;
+using test::room;
+using test::unit_floor;
 
 // Where a limit is met and lifted again, what was undone there is asked for as if for the first time.
 TEST(SiteLimit, WhatRaisingTookBackComesWhenItIsLifted) {
@@ -88,7 +68,8 @@ TEST(SiteLimit, AWishThatItTookBackComesWhenItIsLifted) {
   std::uniform_real_distribution<double> uniform(-0.15, 0.15);
   int met = 0;
   for (int k = 0; k < 60; ++k) {
-    const std::array wanted = {WantedSite{0, Vec3(0.4 + uniform(random), 0.45 + uniform(random), 0)}};
+    const double x = 0.4 + uniform(random), y = 0.45 + uniform(random);
+    const std::array wanted = {WantedSite{0, Vec3(x, y, 0)}};
     const MadeSurface free(unit_floor(), options), limited(unit_floor(), options);
     refine_about_a_point(free);
     refine_about_a_point(limited);

@@ -149,6 +149,20 @@ inline void room_with_boxes(SceneBuilder& builder) {
   builder.box({0.5, 0.7, 0}, {1.4, 1.9, 1.2}, false);
 }
 
+/// That room as a scene.
+inline Scene room() {
+  SceneBuilder builder(std::pmr::get_default_resource());
+  room_with_boxes(builder);
+  return builder.take();
+}
+
+/// The unit square, one facet.
+inline Scene unit_floor() {
+  SceneBuilder builder(std::pmr::get_default_resource());
+  builder.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
+  return builder.take();
+}
+
 /// A floor of six squares, one facet, with a wall without thickness on an edge between them: a slit.
 inline void floor_with_wall(SceneBuilder& builder) {
   for (int i = 0; i < 3; ++i) {

@@ -17,15 +17,10 @@ namespace {
 using test::heap;
 using test::MadeSurface;
 using test::SceneBuilder;
+using test::unit_floor;
 
 SurfaceOptions spaced(double patch_spacing, std::uint32_t levels, Lattice lattice = Lattice::hexagonal) {
   return {lattice, patch_spacing, levels, 0};
-}
-
-Scene unit_floor() {
-  SceneBuilder builder(heap());
-  builder.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
-  return builder.take();
 }
 
 TEST(Surface, UnitFloorOfThePaperHasNineByNineSites) {

@@ -14,12 +14,7 @@ namespace {
 
 using test::MadeSurface;
 using test::SceneBuilder;
-
-Scene unit_floor() {
-  SceneBuilder builder(std::pmr::get_default_resource());
-  builder.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
-  return builder.take();
-}
+using test::unit_floor;
 
 Vec3 corner(const MadeSurface& made, std::uint32_t share) {
   return test::site_of(made.surface, share).position;

@@ -13,12 +13,7 @@ namespace {
 
 using test::MadeSurface;
 using test::SceneBuilder;
-
-Scene unit_floor() {
-  SceneBuilder builder(std::pmr::get_default_resource());
-  builder.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
-  return builder.take();
-}
+using test::unit_floor;
 
 double distance_to_nearest(const Surface& surface, const Vec3& point, std::size_t bound) {
   double least = 1e30;
