@@ -1,6 +1,6 @@
 // How many bytes are held, counted by many threads at once. One counter for all would be fetched from core to core with
-// every block that a task takes: building meshes on two cores took a tenth longer for it. So threads add up what they
-// take and give back, and tell the others once it matters.
+// every block that a task takes: building meshes on two cores took up to a tenth longer for it (by hand). So threads
+// add up what they take and give back, and tell the others once it matters.
 #pragma once
 
 #include <algorithm>

@@ -40,9 +40,8 @@ SampleNeighbours::SampleNeighbours(const Surface& surface, Host& host)
 
   // Each once: counted first, then written.
   const auto in_blocks = [&](auto&& on_sample) {
-    constexpr std::uint32_t k_block = 1024;
-    host.jobs.for_each_in_parts((count + k_block - 1) / k_block, [&](std::uint32_t block) {
-      for (std::uint32_t i = block * k_block; i < std::min(count, (block + 1) * k_block); ++i) {
+    host.jobs.for_ranges(count, 1024, [&](std::size_t first, std::size_t last) {
+      for (auto i = static_cast<std::uint32_t>(first); i < last; ++i) {
         on_sample(i);
       }
     });

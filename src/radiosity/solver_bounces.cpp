@@ -182,6 +182,7 @@ bool Solver::begin_bounce() {
     return false;
   }
   const auto shares = surface->shares();
+  // One pass over the shares: what each sends, and the sum of what that loses.
   lose(sum_side_by_side<Lost>(shares.size(), host.jobs, &host.memory, [&](Lost& lost, std::size_t s) {
     const Color sent = shares[s].albedo * unshot_[s];
     radiosity_[s] = as_sent(sent);

@@ -20,8 +20,8 @@ constexpr std::uint32_t k_rays_of_glimpse = 16;  // one packet
 constexpr std::uint64_t k_seed_of_glimpse = 0x676c696d70736573;
 constexpr float k_wide_open = 0.5f;   // share of the view that is sky, from which on its edges matter less
 constexpr double k_much_finer = 0.3;  // more samples than when all links were last asked what they see of the mesh
-constexpr std::uint32_t k_tasks_a_block = 8;
-constexpr double k_same_way = 0.95;  // cosine between normals of which one may take the other's light
+constexpr std::uint32_t k_tasks_a_block = 8;  // a sample may cast thousands of rays
+constexpr double k_same_way = 0.95;           // cosine between normals of which one may take the other's light
 
 }  // namespace
 

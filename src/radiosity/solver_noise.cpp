@@ -94,9 +94,8 @@ void Solver::measure_spreads() {
 void Solver::free_of_noise(std::pmr::vector<Color>& reflected, std::pmr::vector<Color>& sky, double bend) const {
   const auto count = static_cast<std::uint32_t>(reflected.size());
   std::pmr::vector<Certainty> certain(count, Certainty{}, &host.memory);
-  constexpr std::uint32_t k_block = 256;
-  host.jobs.for_each_in_parts((count + k_block - 1) / k_block, [&](std::uint32_t block) {
-    for (std::uint32_t i = block * k_block; i < std::min(count, (block + 1) * k_block); ++i) {
+  host.jobs.for_ranges(count, 256, [&](std::size_t begin, std::size_t end) {
+    for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
       certain[i].nearness = outlooks_[i].inverse_distance;
       certain[i].settled = records_[i] == k_none;
       if (surface->level_of(surface->samples()[i].site) < surface->max_level()) {

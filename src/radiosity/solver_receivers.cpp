@@ -156,8 +156,8 @@ void Solver::follow_receivers(std::span<const SampleOrigin> origins) {
     place_receivers(pending_);
     return;
   }
-  std::pmr::vector<std::uint8_t> to_place(origins.size(), 0,
-                                          &host.memory);  // the others lie where they did, and in no slot
+  // The others lie where they did, and in no slot.
+  std::pmr::vector<std::uint8_t> to_place(origins.size(), 0, &host.memory);
   host.jobs.for_ranges(origins.size(), k_samples_a_task, [&](std::size_t begin, std::size_t end) {
     for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
       const Receiver here = receiver_at(i, surface->samples()[i].point);
