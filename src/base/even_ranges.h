@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/jobs.h"
+#include "base/steps.h"
 
 namespace radvor {
 
@@ -29,17 +30,36 @@ class EvenRanges {
     }
   }
 
+  double heaviest() const {
+    double weight = 0;
+    for (const Range& range : ranges_) {
+      weight = std::max(weight, range.weight);
+    }
+    return weight;
+  }
+
   std::uint32_t size() const { return static_cast<std::uint32_t>(ranges_.size()); }
 
   /// function(range, begin, end) for each, by its number from the first on.
   template <class Function>
   void for_each(const Jobs& jobs, Function&& function) const {
-    std::pmr::vector<std::uint32_t> order(ranges_.size(), ranges_.get_allocator());
-    std::iota(order.begin(), order.end(), 0u);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return ranges_[a].weight != ranges_[b].weight ? ranges_[a].weight > ranges_[b].weight : a < b;
-    });
+    const auto order = by_weight();
     jobs.for_each(size(), [&](std::uint32_t k) { function(order[k], ranges_[order[k]].begin, ranges_[order[k]].end); });
+  }
+
+  /// The same, which may pause between some of them and others.
+  template <class Function>
+  Steps for_each(const Jobs& jobs, Function& function, Pace& pace) const {
+    const auto order = by_weight();
+    for (std::uint32_t first = 0; first < size();) {
+      const std::uint32_t count = std::min(size() - first, pace.pauses() ? k_at_once * jobs.thread_count() : size());
+      jobs.for_each(count, [&](std::uint32_t k) {
+        const Range& range = ranges_[order[first + k]];
+        function(order[first + k], range.begin, range.end);
+      });
+      first += count;
+      co_await pace;
+    }
   }
 
   /// The same in no order, for tasks beside each other that touch memory beside each other (Jobs::for_each_in_parts).
@@ -49,10 +69,22 @@ class EvenRanges {
   }
 
  private:
+  static constexpr std::uint32_t k_at_once = 4;  // a thread
+
   struct Range {
     std::uint32_t begin, end;
     double weight;
   };
+
+  // The heaviest first.
+  std::pmr::vector<std::uint32_t> by_weight() const {
+    std::pmr::vector<std::uint32_t> order(ranges_.size(), ranges_.get_allocator());
+    std::iota(order.begin(), order.end(), 0u);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return ranges_[a].weight != ranges_[b].weight ? ranges_[a].weight > ranges_[b].weight : a < b;
+    });
+    return order;
+  }
 
   std::pmr::vector<Range> ranges_;
 };

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -56,6 +57,37 @@ TEST(EvenRanges, TheHeaviestRunFirstAndKeepTheirNumbers) {
   });
   EXPECT_EQ(begins, (std::vector<std::uint32_t>{5, 1, 4, 0, 2}));
   EXPECT_EQ(numbers, (std::vector<std::uint32_t>{4, 1, 3, 0, 2}));
+}
+
+TEST(EvenRanges, InStepsThereArePausesBetweenSome) {
+  const test::TestHost host(2);
+  const EvenRanges ranges(
+      100, 1, [](std::uint32_t k) { return 1.0 + k; }, std::pmr::get_default_resource());
+  EXPECT_EQ(ranges.heaviest(), 100);
+  for (const bool pauses : {false, true}) {
+    std::vector<std::atomic<int>> visits(100);
+    const auto visit = [&](std::uint32_t range, std::uint32_t begin, std::uint32_t end) {
+      EXPECT_EQ(begin, range);
+      EXPECT_EQ(end, range + 1);
+      ++visits[range];
+    };
+    Pace pace(std::pmr::get_default_resource());
+    if (pauses) {
+      pace.pause_at({}, {});  // long ago
+    }
+    Steps steps = ranges.for_each(host.jobs, visit, pace);
+    int before = 0;
+    for (bool is_first = true; steps.go_on(); is_first = false) {
+      const int now = std::accumulate(visits.begin(), visits.end(), 0);
+      EXPECT_TRUE(now > before && now - before <= 8) << now;
+      EXPECT_TRUE(!is_first || visits[99] == 1) << "the heaviest are first";
+      before = now;
+    }
+    EXPECT_EQ(before, pauses ? 100 : 0);
+    for (const auto& times : visits) {
+      EXPECT_EQ(times, 1);
+    }
+  }
 }
 
 }  // namespace
