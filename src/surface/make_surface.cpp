@@ -3,25 +3,27 @@
 #include "surface/make_surface.h"
 
 #include <algorithm>
-#include <atomic>
 
 #include "base/even_ranges.h"
 #include "surface/facet_ground.h"
+#include "surface/fill_shares.h"
 #include "surface/given_sites.h"
-#include "surface/receiver_point.h"
-#include "surface/sample_origins.h"
-#include "surface/shading.h"
 #include "surface/spaced_points.h"
-#include "surface/triangle_cells.h"
 
 namespace radvor {
 
 namespace {
 
+constexpr double k_seconds_of_site = 2e-6;  // about, of a facet that is triangulated
+
 class SurfaceMaker {
  public:
   explicit SurfaceMaker(SurfaceParts& parts)
-      : parts_(parts), facets_(parts.memory), retired_(parts.memory), inner_sites_(parts.memory) {}
+      : parts_(parts),
+        facets_(parts.memory),
+        retired_(parts.memory),
+        inner_sites_(parts.memory),
+        first_before_(parts.memory) {}
 
   void draft() {
     parts_.sites = parts_.borders.list();
@@ -35,13 +37,17 @@ class SurfaceMaker {
       }
     }
     parts_.small_triangles.assign(parts_.records.size(), ShareTriangle{k_none, k_none, k_none});
-    build_meshes([&](std::uint32_t k) { return parts_.input(facets_[k]); });
+    const auto input_of = [&](std::uint32_t k) { return parts_.input(facets_[k]); };
+    Pace pace(parts_.memory);
+    build_meshes(input_of, pace).finish();
     number();
     place_border_sites();
   }
 
   void finish(const ChangedFacets& changed) {
-    build_anew(changed);
+    Pace pace(parts_.memory);
+    build_anew(changed, pace).finish();
+    renumber_kept();
     free_retired();
     facets_.clear();
     for (std::uint32_t facet = 0; facet < parts_.records.size(); ++facet) {
@@ -50,31 +56,37 @@ class SurfaceMaker {
       }
     }
     make_room();
-    fill_shares();
+    fill_shares(parts_, facets_, pace).finish();
     make_samples(parts_);
   }
 
-  std::pmr::vector<SampleOrigin> remake(const ChangedFacets& changed) {
-    SurfaceBefore before(parts_, changed.facets);
-    build_anew(changed);
+  Steps remake(const ChangedFacets& changed, Remaking& remaking, Pace& pace) {
+    remaking.before.emplace(parts_, changed.facets);
+    co_await build_anew(changed, pace);
     make_room();
-    copy_shares(before);
-    fill_shares();
+    copy_shares(*remaking.before);
+    co_await pace;
+    co_await fill_shares(parts_, facets_, pace);
+    co_await pace.time_for(k_seconds_of_pass * static_cast<double>(parts_.shares.size()));
     make_samples(parts_);
-    auto origins = find_origins(parts_, before, facets_);
+    co_await pace;
+    co_await find_origins(parts_, *remaking.before, facets_, remaking.origins, pace);
+    remaking.before.reset();
+    renumber_kept();
     free_retired();
-    return origins;
   }
 
  private:
-  void build_anew(const ChangedFacets& changed) {
+  Steps build_anew(const ChangedFacets& changed, Pace& pace) {
     facets_.assign(changed.facets.begin(), changed.facets.end());
-    build_meshes([&](std::uint32_t k) {
+    const auto input_of = [&](std::uint32_t k) {
       FacetInput input = parts_.input(facets_[k]);
       input.inner = changed.inner_of(k);
       return input;
-    });
+    };
+    co_await build_meshes(input_of, pace);
     number();
+    co_await pace;
   }
 
   void free_retired() {
@@ -122,7 +134,7 @@ class SurfaceMaker {
 
   // input_of(k): of facets_[k].
   template <class InputOf>
-  void build_meshes(InputOf&& input_of) {
+  Steps build_meshes(const InputOf& input_of, Pace& pace) {
     std::pmr::vector<std::uint32_t> free(parts_.memory);
     for (auto mesh = static_cast<std::uint32_t>(parts_.meshes.size()); mesh-- > 0;) {
       if (!parts_.meshes[mesh]) {
@@ -162,20 +174,24 @@ class SurfaceMaker {
                  (input.inner ? static_cast<double>(input.inner->size()) : facet.area / (spacing * spacing));
         },
         parts_.memory);
-    ranges.for_each(parts_.host.jobs, [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
+    const auto build = [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
       for (std::uint32_t k = begin; k < end; ++k) {
         const std::uint32_t mesh = parts_.records[facets_[meshed[k]]].mesh;
         parts_.meshes[mesh].emplace(input_of(meshed[k]), parts_.drafts[mesh]);
       }
-    });
+    };
+    co_await pace.time_for(k_seconds_of_site * ranges.heaviest());  // a large facet is one task
+    co_await ranges.for_each(parts_.host.jobs, build, pace);
   }
 
-  // Shares of all facets; sites that are still without a number, in facets built now.
+  // Shares of all facets; sites that are still without a number, in facets built now. The others' triangles keep the
+  // numbers that their shares had.
   void number() {
-    const std::pmr::vector<FacetRecord> before(parts_.records, parts_.memory);
+    first_before_.resize(parts_.records.size());
     std::uint32_t shares = 0;
     for (std::uint32_t facet = 0; facet < parts_.records.size(); ++facet) {
       FacetRecord& record = parts_.records[facet];
+      first_before_[facet] = record.first_share;
       if (record.first_share == k_none) {
         continue;
       }
@@ -189,26 +205,32 @@ class SurfaceMaker {
       record.first_share = shares;
       shares += record.two_sided ? 2 * record.share_count : record.share_count;
     }
-    parts_.ranges_by_shares().for_each_in_parts(
-        parts_.host.jobs, [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
-          for (std::uint32_t facet = begin; facet < end; ++facet) {
-            const FacetRecord& record = parts_.records[facet];
-            if (record.first_share != k_none && record.mesh != k_none) {
-              parts_.meshes[record.mesh]->number_shares(record.first_share - before[facet].first_share);
-            }
-          }
-        });
     std::uint32_t degenerate = 0;
     for (const std::uint32_t facet : facets_) {
-      if (parts_.records[facet].mesh != k_none) {
+      if (const FacetRecord& record = parts_.records[facet]; record.mesh != k_none) {
+        parts_.meshes[record.mesh]->number_shares(record.first_share);
         degenerate += number_sites(facet) ? 0 : 1;
       }
+      first_before_[facet] = parts_.records[facet].first_share;
     }
     if (degenerate > 0) {
       parts_.host.log(LogLevel::info, "%u of %zu facets are too thin to be triangulated anew and keep their triangles",
                       degenerate, parts_.records.size());
     }
     share_count_ = shares;
+  }
+
+  // The triangles of facets that were not built now.
+  void renumber_kept() {
+    parts_.ranges_by_shares().for_each_in_parts(
+        parts_.host.jobs, [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
+          for (std::uint32_t facet = begin; facet < end; ++facet) {
+            const FacetRecord& record = parts_.records[facet];
+            if (record.mesh != k_none && record.first_share != first_before_[facet]) {
+              parts_.meshes[record.mesh]->number_shares(record.first_share - first_before_[facet]);
+            }
+          }
+        });
   }
 
   void make_room() {
@@ -300,103 +322,12 @@ class SurfaceMaker {
     copy(before.details.receiver, parts_.details.receiver);
   }
 
-  // Of facets_, whose drafts are still there.
-  void fill_shares() {
-    constexpr double k_task = 2000;
-    const EvenRanges ranges(
-        facets_.size(), k_task,
-        [&](std::uint32_t k) { return static_cast<double>(parts_.records[facets_[k]].share_count); }, parts_.memory);
-    std::atomic<std::uint32_t> clamped{0};
-    ranges.for_each(parts_.host.jobs, [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
-      std::uint32_t clamped_here = 0;
-      for (std::uint32_t k = begin; k < end; ++k) {
-        clamped_here += parts_.records[facets_[k]].mesh == k_none ? fill_small(facets_[k]) : fill_meshed(facets_[k]);
-      }
-      clamped += clamped_here;
-    });
-    if (clamped > 0) {
-      parts_.host.log(LogLevel::warning, "albedo above %g is taken as that, at %u elements", k_most_albedo,
-                      clamped.load());
-    }
-  }
-
-  std::uint32_t fill_small(std::uint32_t facet) {
-    const FacetInput input = parts_.input(facet);
-    const FacetShading shading(input);
-    const std::uint32_t triangle = parts_.facets.triangles_of(facet).front();
-    const auto& vertices = parts_.welded.triangles[triangle].vertices;
-    const Frame& frame = input.facet().frame;
-    std::array<Vec2, 3> corners;
-    for (std::size_t k = 0; k < 3; ++k) {
-      corners[k] = frame.to_plane(parts_.welded.positions[vertices[k]]);
-    }
-    const auto cells = triangle_cells(corners);
-    std::uint32_t clamped = 0;
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      FacetShare share;
-      share.vertex = k;
-      share.site = parts_.borders.at_vertex(vertices[k]);
-      share.centroid = cells[k].centroid;
-      share.receiver = corners[k] + k_nudge * (cells[k].centroid - corners[k]);
-      share.area = cells[k].area;
-      clamped += fill(facet, k, share, shading.at_corner(triangle, k));
-    }
-    return clamped;
-  }
-
-  std::uint32_t fill_meshed(std::uint32_t facet) {
-    const FacetInput input = parts_.input(facet);
-    FacetShading shading(input);
-    FacetDraft& draft = parts_.drafts[parts_.records[facet].mesh];
-    std::uint32_t clamped = 0;
-    for (std::uint32_t k = 0; k < draft.shares.size(); ++k) {
-      const FacetShare& share = draft.shares[k];
-      clamped +=
-          fill(facet, k, share,
-               share.source.triangle == k_none ? shading.inside(share.position)
-                                               : shading.on_side(share.source, parts_.sites[share.site].position));
-    }
-    draft.let_go();
-    parts_.meshes[parts_.records[facet].mesh]->prepare_location();
-    return clamped;
-  }
-
-  // Both sides of a share; 1 where its albedo was clamped.
-  std::uint32_t fill(std::uint32_t facet, std::uint32_t number, const FacetShare& drafted, const Shading& shading) {
-    const FacetRecord& record = parts_.records[facet];
-    const Frame& frame = parts_.facets.facets[facet].frame;
-    const std::uint32_t front = record.first_share + number;
-    const std::uint32_t back = front + record.share_count;
-    Share share{};
-    share.centroid = frame.to_world(drafted.centroid);
-    share.albedo = shading.albedo;
-    share.area = drafted.area;
-    share.sample = k_none;
-    share.facet = facet;
-    share.patch = k_none;
-    share.vertex = drafted.vertex;
-    share.other_side = record.two_sided ? back : k_none;
-    put(front, share, drafted, shading.normal, frame);
-    if (record.two_sided) {
-      share.other_side = front;
-      share.back = true;
-      put(back, share, drafted, -shading.normal, frame);
-    }
-    return shading.clamped ? 1 : 0;
-  }
-
-  void put(std::uint32_t index, const Share& share, const FacetShare& drafted, const Vec3& normal, const Frame& frame) {
-    parts_.shares[index] = share;
-    parts_.details.site[index] = drafted.site;
-    parts_.details.normal[index] = normal;
-    parts_.details.receiver[index] = frame.to_world(drafted.receiver);
-  }
-
   SurfaceParts& parts_;
   std::uint32_t share_count_ = 0;
-  std::pmr::vector<std::uint32_t> facets_;       // built now
-  std::pmr::vector<std::uint32_t> retired_;      // meshes that others took the place of
-  std::pmr::vector<std::uint32_t> inner_sites_;  // per welded vertex, once one is needed
+  std::pmr::vector<std::uint32_t> facets_;        // built now
+  std::pmr::vector<std::uint32_t> retired_;       // meshes that others took the place of
+  std::pmr::vector<std::uint32_t> inner_sites_;   // per welded vertex, once one is needed
+  std::pmr::vector<std::uint32_t> first_before_;  // per facet: the share that its triangles' numbers begin at
 };
 
 }  // namespace
@@ -409,8 +340,9 @@ void finish_surface(SurfaceParts& parts, const ChangedFacets& changed) {
   SurfaceMaker(parts).finish(changed);
 }
 
-std::pmr::vector<SampleOrigin> remake_surface(SurfaceParts& parts, const ChangedFacets& changed) {
-  return SurfaceMaker(parts).remake(changed);
+Steps remake_surface(SurfaceParts& parts, const ChangedFacets& changed, Remaking& remaking, Pace& pace) {
+  SurfaceMaker maker(parts);
+  co_await maker.remake(changed, remaking, pace);
 }
 
 }  // namespace radvor

@@ -3,9 +3,12 @@
 
 #include <cstdint>
 #include <memory_resource>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "base/steps.h"
+#include "surface/sample_origins.h"
 #include "surface/surface_parts.h"
 
 namespace radvor {
@@ -29,7 +32,15 @@ void draft_surface(SurfaceParts& parts);
 /// Makes the changed facets' triangles anew, and then all shares and samples, of a surface that is drafted.
 void finish_surface(SurfaceParts& parts, const ChangedFacets& changed);
 
-/// Makes the changed facets' triangles, and all shares and samples. Returns an origin for each sample.
-std::pmr::vector<SampleOrigin> remake_surface(SurfaceParts& parts, const ChangedFacets& changed);
+struct Remaking {
+  explicit Remaking(std::pmr::memory_resource* memory) : origins(memory) {}
+
+  std::optional<SurfaceBefore> before;     ///< while there is something that it may be shown instead of
+  std::pmr::vector<SampleOrigin> origins;  ///< of each sample, at the end
+};
+
+/// Makes the changed facets' triangles, and all shares and samples. Where it pauses the surface is not whole; it is as
+/// it was with what is in remaking.before.
+Steps remake_surface(SurfaceParts& parts, const ChangedFacets& changed, Remaking& remaking, Pace& pace);
 
 }  // namespace radvor

@@ -7,8 +7,9 @@
 namespace radvor {
 namespace {
 
-constexpr double k_reach = 2.25;     // of a border into the lattice, in spacings of the level
-constexpr double k_near_border = 3;  // in spacings: lattice sites this near balance as border sites do
+constexpr double k_reach = 2.25;         // of a border into the lattice, in spacings of the level
+constexpr std::uint32_t k_at_once = 16;  // sites, each some microseconds
+constexpr double k_near_border = 3;      // in spacings: lattice sites this near balance as border sites do
 
 }  // namespace
 
@@ -33,9 +34,10 @@ Refinement::Refinement(SurfaceParts& parts)
   fill_table();
 }
 
-void Refinement::raise(std::span<const std::uint32_t> sites, std::uint32_t max_sites) {
+Steps Refinement::raise(std::span<const std::uint32_t> sites, std::uint32_t max_sites, Pace& pace) {
   clearance_.resize(parts_.sites.size(), -1.0);
   const std::pmr::vector<std::uint8_t> levels(parts_.levels, parts_.memory);  // a site named twice rises once
+  std::uint32_t raised = 0;
   for (const std::uint32_t site : sites) {
     const auto level = static_cast<std::uint8_t>(levels[site] + 1);
     if (level <= finest_) {
@@ -44,6 +46,9 @@ void Refinement::raise(std::span<const std::uint32_t> sites, std::uint32_t max_s
       if (!balance(max_sites > 0 ? max_sites : k_none)) {
         roll_back(before);
         break;
+      }
+      if (++raised % k_at_once == 0) {
+        co_await pace;
       }
     }
   }

@@ -20,6 +20,7 @@
 #include <span>
 #include <vector>
 
+#include "base/steps.h"
 #include "scene/index_table.h"
 #include "surface/facet_ground.h"
 #include "surface/make_surface.h"
@@ -33,7 +34,8 @@ class Refinement {
   explicit Refinement(SurfaceParts& parts);
 
   /// Raises sites by one level each, in order, until one would lead beyond max_sites (0: no limit); appends new ones.
-  void raise(std::span<const std::uint32_t> sites, std::uint32_t max_sites);
+  /// May pause between two of them.
+  Steps raise(std::span<const std::uint32_t> sites, std::uint32_t max_sites, Pace& pace);
 
   /// Inserts irregular sites, in order, until one would lead beyond max_sites: on facets that have a lattice, a quarter
   /// of the smallest spacing clear of all other sites and borders. They are of the level of what is around them, and

@@ -19,6 +19,14 @@ SurfaceBefore::SurfaceBefore(SurfaceParts& parts, std::span<const std::uint32_t>
   }
 }
 
+void SurfaceBefore::trade_places(SurfaceParts& parts) {
+  shares.swap(parts.shares);
+  samples.swap(parts.samples);
+  std::swap(details, parts.details);
+  records.swap(parts.records);
+  small_triangles.swap(parts.small_triangles);
+}
+
 namespace {
 
 constexpr std::size_t k_samples = 1024;  // of a task
@@ -29,7 +37,7 @@ class OriginFinder {
       : parts_(parts), before_(before), old_share_(parts.shares.size(), k_none, parts.memory) {}
 
   // Shares that were there before, on unchanged facets and of old sites on changed ones.
-  void match_shares(std::span<const std::uint32_t> changed) {
+  Steps match_shares(std::span<const std::uint32_t> changed, Pace& pace) {
     parts_.ranges_by_shares().for_each_in_parts(
         parts_.host.jobs, [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
           for (std::uint32_t facet = begin; facet < end; ++facet) {
@@ -41,25 +49,26 @@ class OriginFinder {
             }
           }
         });
+    co_await pace;
     constexpr double k_task = 1024;
     const EvenRanges ranges(
         changed.size(), k_task, [&](std::uint32_t k) { return 1.0 + parts_.records[changed[k]].share_count; },
         parts_.memory);
-    ranges.for_each(parts_.host.jobs, [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
+    const auto match = [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
       for (std::uint32_t k = begin; k < end; ++k) {
         match_shares(changed[k]);
       }
-    });
+    };
+    co_await ranges.for_each(parts_.host.jobs, match, pace);
   }
 
-  std::pmr::vector<SampleOrigin> origins() const {
-    std::pmr::vector<SampleOrigin> found(parts_.samples.size(), parts_.memory);
+  void find(std::pmr::vector<SampleOrigin>& found) const {
+    found.resize(parts_.samples.size());
     parts_.host.jobs.for_ranges(found.size(), k_samples, [&](std::size_t begin, std::size_t end) {
       for (std::size_t index = begin; index < end; ++index) {
         found[index] = origin(parts_.samples[index]);
       }
     });
-    return found;
   }
 
  private:
@@ -214,11 +223,11 @@ class OriginFinder {
 
 }  // namespace
 
-std::pmr::vector<SampleOrigin> find_origins(const SurfaceParts& parts, const SurfaceBefore& before,
-                                            std::span<const std::uint32_t> changed) {
+Steps find_origins(const SurfaceParts& parts, const SurfaceBefore& before, std::span<const std::uint32_t> changed,
+                   std::pmr::vector<SampleOrigin>& origins, Pace& pace) {
   OriginFinder finder(parts, before);
-  finder.match_shares(changed);
-  return finder.origins();
+  co_await finder.match_shares(changed, pace);
+  finder.find(origins);
 }
 
 }  // namespace radvor

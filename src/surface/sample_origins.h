@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "base/steps.h"
 #include "surface/surface_parts.h"
 
 namespace radvor {
@@ -17,6 +18,9 @@ struct SurfaceBefore {
 
   bool is_changed(std::uint32_t facet) const { return changed[facet] != 0; }
 
+  /// The surface becomes as it was, and this what it is to be; and back.
+  void trade_places(SurfaceParts& parts);
+
   RawVector<Share> shares;
   RawVector<Sample> samples;
   ShareDetails details;
@@ -25,8 +29,8 @@ struct SurfaceBefore {
   std::pmr::vector<std::uint8_t> changed;  ///< per facet
 };
 
-/// One a sample of the surface as it is now.
-std::pmr::vector<SampleOrigin> find_origins(const SurfaceParts& parts, const SurfaceBefore& before,
-                                            std::span<const std::uint32_t> changed);
+/// origins: one a sample of the surface as it is now.
+Steps find_origins(const SurfaceParts& parts, const SurfaceBefore& before, std::span<const std::uint32_t> changed,
+                   std::pmr::vector<SampleOrigin>& origins, Pace& pace);
 
 }  // namespace radvor

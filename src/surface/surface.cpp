@@ -19,7 +19,26 @@ struct Surface::State : SurfaceParts {
   using SurfaceParts::SurfaceParts;
 
   std::optional<Refinement> refinement;  // what it needs to know is found out when it is first used
+
+  // What refinement raised and is wanted becomes triangles, shares and samples.
+  Steps remake(std::uint32_t max_sites, std::span<const WantedSite> wanted, Remaking& remaking, Pace& pace) {
+    first_of_patch.clear();
+    patch_members.clear();
+    refinement->insert(wanted, max_sites);
+    const ChangedFacets changed = refinement->take_changes();
+    co_await remake_surface(*this, changed, remaking, pace);
+  }
 };
+
+namespace {
+
+// The environment is set for as long as the steps run, and is the caller's where they pause.
+bool go_on(Steps& steps) {
+  const FloatingPointGuard guard(Denormals::keep);
+  return steps.go_on();
+}
+
+}  // namespace
 
 Surface::Surface(const Scene& scene, const WeldedScene& welded, const Facets& facets, const SurfaceOptions& options,
                  Host& host)
@@ -45,30 +64,53 @@ Surface::~Surface() {
 
 std::pmr::vector<SampleOrigin> Surface::refine(std::span<const std::uint32_t> sites, std::uint32_t max_sites,
                                                std::span<const WantedSite> wanted) {
-  const FloatingPointGuard guard(Denormals::keep);
+  Pace pace(memory_);
+  std::pmr::vector<SampleOrigin> origins(memory_);
+  refine(sites, max_sites, wanted, origins, pace).finish();
+  return origins;
+}
+
+Steps Surface::refine(std::span<const std::uint32_t> sites, std::uint32_t max_sites, std::span<const WantedSite> wanted,
+                      std::pmr::vector<SampleOrigin>& origins, Pace& pace) {
   for (const WantedSite& wish : wanted) {
     if (wish.facet >= state_->records.size()) {
       throw Error(ErrorCode::invalid_argument, "there is no facet %u", wish.facet);
     }
   }
-  raise(sites, max_sites);
-  state_->first_of_patch.clear();
-  state_->patch_members.clear();
-  state_->refinement->insert(wanted, max_sites);
-  return remake_surface(*state_, state_->refinement->take_changes());
+  co_await raise(sites, max_sites, pace);
+  Remaking remaking(memory_);
+  Steps steps = state_->remake(max_sites, wanted, remaking, pace);
+  while (go_on(steps)) {
+    if (remaking.before) {
+      remaking.before->trade_places(*state_);
+    }
+    co_await pace;
+    if (remaking.before) {
+      remaking.before->trade_places(*state_);
+    }
+  }
+  origins = std::move(remaking.origins);
 }
 
 void Surface::raise(std::span<const std::uint32_t> sites, std::uint32_t max_sites) {
-  const FloatingPointGuard guard(Denormals::keep);
+  Pace pace(memory_);
+  raise(sites, max_sites, pace).finish();
+}
+
+Steps Surface::raise(std::span<const std::uint32_t> sites, std::uint32_t max_sites, Pace& pace) {
   for (const std::uint32_t site : sites) {
     if (site >= state_->sites.size()) {
       throw Error(ErrorCode::invalid_argument, "there is no site %u", site);
     }
   }
   if (!state_->refinement) {
+    const FloatingPointGuard guard(Denormals::keep);
     state_->refinement.emplace(*state_);
   }
-  state_->refinement->raise(sites, max_sites);
+  Steps steps = state_->refinement->raise(sites, max_sites, pace);
+  while (go_on(steps)) {
+    co_await pace;
+  }
 }
 
 Ties Surface::align_ties(std::span<const double> value_of, double tolerance) {

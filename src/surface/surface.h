@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "base/host.h"
+#include "base/steps.h"
 #include "base/vector.h"
 #include "scene/facets.h"
 #include "scene/scene.h"
@@ -36,6 +37,9 @@ struct SurfaceOptions {
   bool raises_first = false;         ///< whether borders and contacts are raised so, before there are shares
   std::uint32_t max_sites = 0;       ///< at which that ends (first_levels.h); 0: no limit
 };
+
+/// About what a share or sample takes in a pass over all of them that can't be left off, for Pace::time_for.
+inline constexpr double k_seconds_of_pass = 3e-7;
 
 struct Site {
   Vec3 position;                  ///< the same bits for all facets that share it
@@ -146,9 +150,15 @@ class Surface {
   std::pmr::vector<SampleOrigin> refine(std::span<const std::uint32_t> sites, std::uint32_t max_sites = 0,
                                         std::span<const WantedSite> wanted = {});
 
+  /// The same in steps, whose arguments must be there until they are done. Between them the surface may be read but not
+  /// changed: sites() and level_of() tell of what is raised already, all else is as it was before, without patches.
+  Steps refine(std::span<const std::uint32_t> sites, std::uint32_t max_sites, std::span<const WantedSite> wanted,
+               std::pmr::vector<SampleOrigin>& origins, Pace& pace);
+
   /// The first part of refine(): what it does to sites shows at once, in sites() and level_of(); all else is as it was
   /// until the next refine(), be it one of no sites. For those who know what to raise without light, or to rise twice.
   void raise(std::span<const std::uint32_t> sites, std::uint32_t max_sites = 0);
+  Steps raise(std::span<const std::uint32_t> sites, std::uint32_t max_sites, Pace& pace);
 
   /// How often the surroundings of a site were refined: at least its own level, at most max_level(). Levels of sites
   /// that are joined by an edge differ by at most one.
