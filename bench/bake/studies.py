@@ -110,24 +110,34 @@ def embree(scenes, options):
 
 def first_light(scenes, options):
     """Direct light in slices: what each took, and its error after each: at random points, which the mesh must have
-    followed, and at the scene's own vertices."""
+    followed, and at the scene's own vertices. And how long the slices of a whole bake take."""
     result = {}
     for scene in scenes:
         reference = scene.reference(direct=True)
+        bake = ["slices", options.slice, scene.obj, *scene.light_arguments(), "--tolerance", options.tolerance]
         with tempfile.TemporaryDirectory() as folder:
-            lines = runs.run(["slices", options.slice, scene.obj, *scene.light_arguments(), "--tolerance",
-                              options.tolerance, "--max-seconds", 10, "--quantity", "direct", "--points", reference,
-                              "--points-out", pathlib.Path(folder) / "values"], seconds=1200)
-            for line in lines:
+            direct = runs.run(bake + ["--max-seconds", 10, "--quantity", "direct", "--points", reference,
+                                      "--points-out", pathlib.Path(folder) / "values"], seconds=1200)
+            for line in direct:
                 line["error"] = errors(reference, line.pop("points"))
-        result[scene.name] = lines
-        lit = next((line for line in lines if line["error"]["rms"] <= 0.3), None)
-        at_vertices = next((line for line in lines if line["vertex_rms"] <= 0.3), None)
-        late = max((line["seconds"] for line in lines[1:]), default=0)
-        say(f"{scene.name:<12} geometry {lines[0]['seconds']:.2f} s; direct light within 30 % after "
-            + (f"{lit['total_seconds']:.2f} s in all" if lit else "more than 10 s")
-            + (f", at the vertices {at_vertices['total_seconds']:.2f} s" if at_vertices else ", never at the vertices")
-            + f"; slices of {options.slice} s: the longest {late:.2f} s, of {len(lines) - 1}")
+        slices = [line["seconds"] for line in runs.run(bake + ["--max-seconds", options.max_seconds], seconds=1200)[1:]]
+        lit = next((line for line in direct if line["error"]["rms"] <= 0.3), None)
+        at_vertices = next((line for line in direct if line["vertex_rms"] <= 0.3), None)
+        result[scene.name] = row = {
+            "slice": options.slice,
+            "direct": direct,
+            "geometry": direct[0]["seconds"],
+            "lit": lit and lit["total_seconds"],
+            "lit_at_vertices": at_vertices and at_vertices["total_seconds"],
+            "slices": len(slices),
+            "late": sum(seconds > 1.5 * options.slice for seconds in slices),
+            "longest": max(slices),
+        }
+        say(f"{scene.name:<12} geometry {row['geometry']:.2f} s; direct light within 30 % after "
+            + (f"{row['lit']:.2f} s in all" if lit else "more than 10 s")
+            + (f", at the vertices {row['lit_at_vertices']:.2f} s" if at_vertices else ", never at the vertices")
+            + f"; of {row['slices']} slices of {options.slice} s in a whole bake {row['late']} took more than 1.5 times"
+            + f" that, the longest {row['longest']:.3f} s")
     return result
 
 

@@ -1,6 +1,7 @@
 // What the API holds: a solver on the host's memory, and time slices.
 #include "radiosity/bake.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "base/error.h"
@@ -51,7 +52,13 @@ BakeStatus Bake::advance(double seconds, const ProgressCallback& callback) {
   const double before = state_->seconds;
   BakeStatus status = BakeStatus::converged;
   state_->show_no_more();
-  state_->in_slices = seconds > 0;
+  if (seconds > 0) {
+    constexpr double k_no_end = 1e9;
+    const std::chrono::duration<double> given(std::min(seconds, k_no_end));
+    state_->slice.pause_at(begin, begin + std::chrono::duration_cast<Clock::duration>(given));
+  } else {
+    state_->slice.pause_no_more();
+  }
   bool moved = false;  // every slice does a unit of work, however short it is: a sequence of them comes to its end
   while (state_->stage() != Solver::Stage::done) {
     const Clock::time_point unit = Clock::now();
@@ -61,7 +68,7 @@ BakeStatus Bake::advance(double seconds, const ProgressCallback& callback) {
       break;
     }
     const double spent = seconds_since(begin);
-    if ((seconds > 0 && moved && spent >= seconds) ||
+    if ((moved && state_->slice.is_over()) ||
         (state_->options.max_seconds > 0 && before + spent >= state_->options.max_seconds)) {
       status = BakeStatus::time_spent;
       break;

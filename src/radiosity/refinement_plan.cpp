@@ -126,17 +126,18 @@ class FacetErrors {
 
 }  // namespace
 
-std::pmr::vector<std::uint32_t> plan_refinement(const Surface& surface, const SampledLight& light,
-                                                const RefinementGoal& goal, Host& host) {
+Steps plan_refinement(const Surface& surface, SampledLight light, RefinementGoal goal, Host& host,
+                      std::pmr::vector<std::uint32_t>& raised, Pace& pace) {
   std::pmr::memory_resource* memory = &host.memory;
   const EvenRanges ranges = ranges_by_triangles(surface, host);
   std::pmr::vector<std::pmr::vector<EdgeError>> found(ranges.size(), memory);
-  ranges.for_each(host.jobs, [&](std::uint32_t range, std::uint32_t begin, std::uint32_t end) {
+  const auto estimate = [&](std::uint32_t range, std::uint32_t begin, std::uint32_t end) {
     FacetErrors errors(surface, light, goal, memory);
     for (std::uint32_t facet = begin; facet < end; ++facet) {
       errors.find(facet, found[range]);
     }
-  });
+  };
+  co_await ranges.for_each(host.jobs, estimate, pace);
 
   // The goal is met where the mean of the scores is 1.
   double area = 0;
@@ -162,17 +163,19 @@ std::pmr::vector<std::uint32_t> plan_refinement(const Surface& surface, const Sa
         errors.push_back(error);
       }
     }
+    co_await pace;
   }
   sort_side_by_side(errors, host.jobs, [](const EdgeError& x, const EdgeError& y) {
     return x.score != y.score ? x.score > y.score : x.a != y.a ? x.a < y.a : x.b < y.b;
   });
+  co_await pace;
 
-  std::pmr::vector<std::uint32_t> raised(memory);
   std::pmr::vector<double> at_stake(surface.sites().size(), 0.0, memory);
   for (const EdgeError& error : errors) {
     at_stake[error.a] += error.score;
     at_stake[error.b] += error.score;
   }
+  co_await pace;
   std::pmr::vector<std::uint8_t> is_raised(surface.sites().size(), 0, memory);
   for (const EdgeError& error : errors) {
     if (left <= area) {
@@ -191,7 +194,6 @@ std::pmr::vector<std::uint32_t> plan_refinement(const Surface& surface, const Sa
     is_raised[site] = 1;
     raised.push_back(site);
   }
-  return raised;
 }
 
 }  // namespace radvor

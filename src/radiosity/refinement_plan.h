@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/host.h"
+#include "base/steps.h"
 #include "base/vector.h"
 #include "surface/surface.h"
 
@@ -29,7 +30,8 @@ struct RefinementGoal {
 /// off by 0.3 of the difference: a step's root mean square. Of the estimated squared error over the area the worst is
 /// refined until the rest is within the goal. For each edge that is to be halved one end is raised; worst first. Edges
 /// whose ends are at the highest level stay as they are.
-std::pmr::vector<std::uint32_t> plan_refinement(const Surface& surface, const SampledLight& light,
-                                                const RefinementGoal& goal, Host& host);
+/// raised: the sites, empty before.
+Steps plan_refinement(const Surface& surface, SampledLight light, RefinementGoal goal, Host& host,
+                      std::pmr::vector<std::uint32_t>& raised, Pace& pace);
 
 }  // namespace radvor

@@ -68,9 +68,11 @@ class Smoother {
     for_each_sample([&](std::uint32_t i) { original_[i] = values_[i]; });
   }
 
-  void run() {
+  Steps run(Pace& pace) {
     measure_edges();
+    co_await pace;
     pool_noise();
+    co_await pace;
     for_each_sample([&](std::uint32_t i) { noise_[i] = pooled_[i]; });
     for (int pass = 0; pass < k_passes; ++pass) {
       for_each_sample([&](std::uint32_t i) {
@@ -82,6 +84,7 @@ class Smoother {
           move(i);
         }
       });
+      co_await pace;
     }
   }
 
@@ -188,9 +191,10 @@ class Smoother {
 
 }  // namespace
 
-void smooth(const Surface& surface, const SampleNeighbours& neighbours, std::span<const Certainty> certain,
-            std::span<Color> values, Host& host) {
-  Smoother(surface, neighbours, certain, values, host).run();
+Steps smooth(const Surface& surface, const SampleNeighbours& neighbours, std::span<const Certainty> certain,
+             std::span<Color> values, Host& host, Pace& pace) {
+  Smoother smoother(surface, neighbours, certain, values, host);
+  co_await smoother.run(pace);
 }
 
 }  // namespace radvor

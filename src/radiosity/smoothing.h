@@ -5,6 +5,7 @@
 #include <span>
 
 #include "base/host.h"
+#include "base/steps.h"
 #include "base/vector.h"
 #include "radiosity/sample_neighbours.h"
 #include "surface/surface.h"
@@ -24,7 +25,7 @@ struct Certainty {
 /// counts the more, the less noisy it is and the less light may bend on the way to it. What differs from the plane in
 /// any channel by more than noise explains stays too. How noisy a value is, its neighbours are asked as well: rays that
 /// missed what is bright do not know what they missed. values, certain: one a sample.
-void smooth(const Surface& surface, const SampleNeighbours& neighbours, std::span<const Certainty> certain,
-            std::span<Color> values, Host& host);
+Steps smooth(const Surface& surface, const SampleNeighbours& neighbours, std::span<const Certainty> certain,
+             std::span<Color> values, Host& host, Pace& pace);
 
 }  // namespace radvor

@@ -24,6 +24,7 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
       direct(&host.memory),
       indirect(&host.memory),
       fit(&host.memory),
+      slice(&host.memory),
       occluders_(&host.memory),
       skips_{(options.disable & Disable::facing) == 0, (options.disable & Disable::negligible) == 0},
       visibility_(nullptr, Unmake{maker, host}),
@@ -106,6 +107,16 @@ Solver::Solver(Scene given, const BakeOptions& wanted, const VisibilityMaker& ma
 }
 
 void Solver::step() {
+  if (under_way_.is_done()) {
+    begin_step();
+  }
+  if (!under_way_.go_on()) {
+    under_way_ = Steps();
+  }
+  report_convergence();
+}
+
+void Solver::begin_step() {
   switch (stage_) {
     case Stage::glimpse:
       glimpse();
@@ -114,10 +125,10 @@ void Solver::step() {
       shine();
       break;
     case Stage::refinement:
-      refine();
+      under_way_ = refine(slice);
       break;
     case Stage::remake:
-      remake();
+      under_way_ = remake(slice);
       break;
     case Stage::silhouettes:
       cast_shadows();
@@ -129,31 +140,34 @@ void Solver::step() {
       probe();
       break;
     case Stage::hemispheres:
-      look_around();
+      under_way_ = look_around(slice);
       break;
     case Stage::first_bounce:
       see_first_bounce();
       break;
     case Stage::fit:
-      fit_between();
+      under_way_ = fit_between(slice);
       break;
     case Stage::account:
-      account();
+      under_way_ = account(slice);
       break;
     case Stage::standouts:
-      shoot_standout();
+      under_way_ = shoot_standout(slice);
       break;
     case Stage::bounces:
       bounce();
       break;
     case Stage::finish:
-      settle_noise();
-      stage_ = Stage::done;
+      under_way_ = finish(slice);
       break;
     case Stage::done:
       break;
   }
-  report_convergence();
+}
+
+Steps Solver::finish(Pace& pace) {
+  co_await settle_noise(pace);
+  stage_ = Stage::done;
 }
 
 void Solver::count(const TransportCounters& counters) {

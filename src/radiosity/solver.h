@@ -1,5 +1,5 @@
 // The state of a bake and the steps of its loop. Each step is a unit of work whose order is fixed, small enough for a
-// time slice but for what plans and makes the mesh, sounds out its noise or smooths it away, and shoots by itself.
+// time slice or, like what plans and makes the mesh, such that it can be left off in between.
 //
 //   (glimpse, where there is a sky);
 //   direct -> refinement, remake -> (once) silhouettes -> shadows -> probes, again while they raise sites;
@@ -20,6 +20,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/steps.h"
 #include "radiosity/bake.h"
 #include "radiosity/direct_light.h"
 #include "radiosity/gather.h"
@@ -61,9 +62,6 @@ class Solver {
   bool looks_around() const { return looking_; }
   void step();
 
-  /// Smaller units of work, for slices, though more threads wait at their ends.
-  bool in_slices = false;
-
   /// For a bake that is shown between slices: whether there is a guess to make at what it shows until the sources have
   /// shone on the first samples, and a unit of work on it. It goes nowhere else, and its rays are not counted.
   bool guesses() const;
@@ -84,8 +82,9 @@ class Solver {
   std::optional<Surface> surface;
   std::pmr::vector<Color> direct, indirect;  ///< irradiance of each sample
   std::pmr::vector<Color> fit;               ///< added to direct where triangles interpolate; empty: nothing
-  double seconds = 0;                        ///< spent since the beginning
-  double converged = 0;                      ///< 0..1, never falls
+  Pace slice;  ///< where step() pauses; then its units of work are smaller, though more threads wait at their ends
+  double seconds = 0;    ///< spent since the beginning
+  double converged = 0;  ///< 0..1, never falls
   double seconds_direct = 0, seconds_indirect = 0;
   const BakeStats& counters() const { return stats_; }
 
@@ -101,20 +100,22 @@ class Solver {
 
   void glimpse();
   void shine();
-  void refine();
-  void remake();
+  void begin_step();
+  Steps refine(Pace& pace);
   void end_refinement();
+  Steps remake(Pace& pace);
+  void end_remake();
   void cast_shadows();
   void judge_shadows();
   double score_of(double found, double expected, double mean, double area) const;
   void probe();
+  void end_probes();
   std::uint32_t probe_rays() const;
   void place_probes_due();
   std::pmr::vector<std::uint32_t> wrong_between() const;
-  bool raise(std::span<const std::uint32_t> sites);
   void begin_looking();
-  void follow(std::span<const Share> before, std::span<const std::uint32_t> before_sites,
-              std::span<const SampleOrigin> origins);
+  Steps follow(std::span<const Share> before, std::span<const std::uint32_t> before_sites,
+               std::span<const SampleOrigin> origins, Pace& pace);
   template <class Value>
   void renumber(std::pmr::vector<Value>& values, std::span<const SampleOrigin> origins, const Value& unknown);
   void keep_interpolated(std::span<const std::uint32_t> now);
@@ -123,14 +124,14 @@ class Solver {
   std::uint32_t rays_for(std::uint32_t sample) const;
   void look_from(std::uint32_t sample, std::uint32_t rays, Tracer& tracer);
   std::uint32_t rays_by_sky(std::span<const std::uint32_t, 3> around, float glimpsed) const;
-  void look_around();
+  Steps look_around(Pace& pace);
   void see_first_bounce();
   bool catch_up();
   void reflect_direct();
   void sound_out_noise();
   void interpolate(std::span<const std::uint32_t> samples, std::pmr::vector<Color>& values) const;
-  void account();
-  void shoot_standout();
+  Steps account(Pace& pace);
+  Steps shoot_standout(Pace& pace);
   Lost lost_of(std::uint32_t share, const Color& radiosity) const;
   void lose(const Lost& lost);
   bool begin_bounce();
@@ -141,13 +142,14 @@ class Solver {
   double noise_of(std::uint32_t record, double spread) const;
   void measure_spreads();
   double noise_of_sky(std::uint32_t sample) const;
-  void free_of_noise(std::pmr::vector<Color>& reflected, std::pmr::vector<Color>& sky, double bend) const;
-  void settle_surroundings();
+  Steps free_of_noise(std::pmr::vector<Color>& reflected, std::pmr::vector<Color>& sky, double bend, Pace& pace) const;
+  Steps settle_surroundings(Pace& pace);
   std::pmr::vector<Color> sky_light() const;
-  void settle_noise();
+  Steps settle_noise(Pace& pace);
+  Steps finish(Pace& pace);
   void align_ties();
   void place_fit_probes();
-  void fit_between();
+  Steps fit_between(Pace& pace);
   Color punctual_light(const Receiver& receiver, Tracer& tracer) const;
 
   // Runs work(sample, tracer) for a range of blocks of receivers, as so many tasks a block: where a block is much work,
@@ -164,6 +166,7 @@ class Solver {
   double mean_of(std::span<const Color> irradiance) const;
   double receiving_area() const;
   std::uint32_t sample_of(std::uint32_t front_share, bool back) const;
+  double seconds_of_pass() const { return k_seconds_of_pass * static_cast<double>(direct.size()); }
   std::uint32_t next_blocks(std::uint32_t per_thread) const;
   double unshot_luminance() const;
   void place_receivers(std::span<const std::uint32_t> samples);
@@ -226,7 +229,8 @@ class Solver {
   std::uint32_t round_ = 0;                 // of refinement
   std::optional<Silhouettes> silhouettes_;  // until they are cast
   std::pmr::vector<std::uint32_t> raised_;  // sites, by the refinement that is planned
-  std::pmr::vector<CastShadow> casts_;      // to be judged
+  bool raised_by_probes_ = false;
+  std::pmr::vector<CastShadow> casts_;  // to be judged
   std::pmr::vector<Shadowed> shadowed_;
   std::pmr::vector<Probe> probes_;
   std::pmr::vector<Color> probed_;           // irradiance at each probe
@@ -242,6 +246,7 @@ class Solver {
   double previous_unshot_ = 0, first_unshot_ = 0;
   std::uint64_t idle_rays_ = 0, rays_before_standouts_ = 0;  // the latter without the former
   BakeStats stats_;
+  Steps under_way_;  // works on all of this
 };
 
 // What is known of samples, under their new numbers after a refinement.
@@ -287,7 +292,7 @@ template <class Work>
 bool Solver::over_probes(Work&& work) {
   constexpr std::uint32_t k_size = ReceiverBlocks::k_size;
   const auto count = static_cast<std::uint32_t>((probes_.size() + k_size - 1) / k_size);
-  const std::uint32_t end = std::min(count, block_ + 4 * host.jobs.thread_count());
+  const std::uint32_t end = std::min(count, block_ + (slice.pauses() ? 1 : 4) * host.jobs.thread_count());
   over(block_, end, [&](std::uint32_t block, Tracer& tracer) {
     const std::size_t stop = std::min<std::size_t>(probes_.size(), std::size_t{block + 1} * k_size);
     for (std::size_t k = std::size_t{block} * k_size; k < stop; ++k) {

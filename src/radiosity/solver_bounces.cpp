@@ -30,8 +30,10 @@ constexpr double k_most_ratio = 0.97;  // of a bounce to the one before, as a se
 }  // namespace
 
 // What the sources emitted and lost; what surfaces have to reflect.
-void Solver::account() {
+Steps Solver::account(Pace& pace) {
+  co_await pace.time_for(seconds_of_pass());
   surface->group_patches();
+  co_await pace;
   const FateMeter meter(scene, *welded, *visibility_, occluders_, options.tolerance, options.seed);
   const FateMeter::Powers powers = meter.of_sources(*light_, host);
   stats_.emitted_power = powers.emitted;
@@ -57,7 +59,7 @@ void Solver::account() {
   first_unshot_ = previous_unshot_ = unshot_luminance();
   if ((options.disable & Disable::indirect) != 0 || first_unshot_ <= 0) {
     stage_ = Stage::finish;
-    return;
+    co_return;
   }
   stood_out_.assign(surface->patch_count(), 0);
   rays_before_standouts_ = stats_.rays - idle_rays_;
@@ -72,7 +74,7 @@ double Solver::unshot_luminance() const {
 }
 
 // Shoots the patch that stands out farthest at all receivers, while one does: few rays would meet it.
-void Solver::shoot_standout() {
+Steps Solver::shoot_standout(Pace& pace) {
   const auto shares = surface->shares();
   std::pmr::vector<double> powers(surface->patch_count(), 0.0, &host.memory),
       areas(surface->patch_count(), 0.0, &host.memory);
@@ -103,22 +105,16 @@ void Solver::shoot_standout() {
   if (patch == k_none || most < k_stands_out * options.tolerance * variance ||
       spent > k_most_spent * static_cast<double>(rays_before_standouts_)) {
     stage_ = Stage::bounces;
-    return;
+    co_return;
   }
-  stood_out_[patch] = 1;
-  shot_alone_.resize(shares.size(), Color(0.0));
-  from_standouts_.resize(incoming_.size(), Color(0.0));
   const ShootingTree tree(*surface, std::span(&patch, 1), host);
   std::pmr::vector<NodeLight> light(tree.nodes().size(), NodeLight{}, &host.memory);
   for (const Element& element : tree.elements()) {
     light[element.node].radiosity = shares[element.share].albedo * unshot_[element.share];
-    lose(lost_of(element.share, light[element.node].radiosity));
-    shot_alone_[element.share] += light[element.node].radiosity;
-    unshot_[element.share] = Color(0.0);
   }
   tree.pull(light, host);
 
-  over(0, blocks_->count(), [&](std::uint32_t block, Tracer& tracer) {
+  const auto shine_on = [&](std::uint32_t block, Tracer& tracer) {
     LinkMaker maker(tree, occluder_tree_ ? &*occluder_tree_ : nullptr, {}, &host.memory);
     std::pmr::vector<Link> links(&host.memory);
     for (const std::uint32_t sample : blocks_->block(block)) {
@@ -129,8 +125,24 @@ void Solver::shoot_standout() {
         incoming_[sample] += sent_along(link, light);
       }
     }
-  });
+  };
+  for (std::uint32_t begin = 0; begin < blocks_->count();) {
+    const std::uint32_t at_once = pace.pauses() ? 4 * host.jobs.thread_count() : blocks_->count();
+    const std::uint32_t end = begin + std::min(at_once, blocks_->count() - begin);
+    over(begin, end, shine_on);
+    begin = end;
+    co_await pace;
+  }
   interpolate(interpolated_, incoming_);
+  stood_out_[patch] = 1;
+  shot_alone_.resize(shares.size(), Color(0.0));
+  from_standouts_.resize(incoming_.size(), Color(0.0));
+  for (const Element& element : tree.elements()) {
+    const Color sent = shares[element.share].albedo * unshot_[element.share];
+    lose(lost_of(element.share, sent));
+    shot_alone_[element.share] += sent;
+    unshot_[element.share] = Color(0.0);
+  }
   for (std::size_t i = 0; i < incoming_.size(); ++i) {
     indirect[i] += incoming_[i];
     from_standouts_[i] += incoming_[i];
@@ -261,7 +273,7 @@ void Solver::bounce() {
     incoming_before_.swap(incoming_);
     incoming_.resize(incoming_before_.size());
   }
-  const std::uint32_t end = next_blocks(in_slices ? 32 : 256);
+  const std::uint32_t end = next_blocks(slice.pauses() ? 32 : 256);
   const bool chooses = skips_.negligible && bounces_ > 0 && bounces_ % k_same_links == 0;
   over_blocks(block_, end, [&](std::uint32_t sample, Tracer& tracer) {
     if (chooses) {

@@ -39,21 +39,24 @@ void Solver::place_fit_probes() {
   probed_.assign(probes_.size(), Color(0.0));
 }
 
-void Solver::fit_between() {
+Steps Solver::fit_between(Pace& pace) {
   if (!catch_up()) {
-    return;
+    co_return;
   }
   if (block_ == 0) {
     align_ties();
     if (!options.spacing.refines || light_->source_count() == 0) {
       stage_ = Stage::account;
-      return;
+      co_return;
     }
+    co_await pace;
     place_fit_probes();
+    co_await pace;
   }
   if (!over_probes([&](std::size_t k, Tracer& tracer) { probed_[k] = punctual_light(probes_[k].receiver, tracer); })) {
-    return;
+    co_return;
   }
+  co_await pace;
   std::pmr::vector<Color> punctual(direct, &host.memory);
   const Color sky = k_pi * light_->sky_radiance();
   for (std::size_t i = 0; i < punctual.size(); ++i) {

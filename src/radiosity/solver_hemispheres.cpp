@@ -160,15 +160,17 @@ void Solver::glimpse() {
 }
 
 // What some blocks of pending receivers see of their hemispheres.
-void Solver::look_around() {
+Steps Solver::look_around(Pace& pace) {
   if ((options.disable & Disable::indirect) != 0 && sum(light_->sky_radiance()) <= 0) {
     stage_ = Stage::fit;
-    return;
+    co_return;
   }
   if (block_ == 0) {
+    co_await pace.time_for(seconds_of_pass());
     begin_level();
+    co_await pace;
   }
-  const std::uint32_t end = next_blocks(in_slices ? 1 : 4);
+  const std::uint32_t end = next_blocks(slice.pauses() ? 1 : 4);
   over_blocks(
       block_, end,
       [&](std::uint32_t sample, Tracer& tracer) {
@@ -178,11 +180,11 @@ void Solver::look_around() {
       k_tasks_a_block);
   block_ = end;
   if (block_ < blocks_->count()) {
-    return;
+    co_return;
   }
   block_ = 0;
   if (++level_ <= surface->max_level()) {
-    return;
+    co_return;
   }
   level_ = 0;
   const Color sky = k_pi * light_->sky_radiance();
@@ -219,7 +221,7 @@ void Solver::see_first_bounce() {
   constexpr std::size_t k_block = 256;
   const std::size_t count = all ? samples : pending_.size();
   const std::size_t begin = block_ * k_block;
-  const std::size_t end = std::min(count, begin + (in_slices ? 8 : 64) * k_block * host.jobs.thread_count());
+  const std::size_t end = std::min(count, begin + (slice.pauses() ? 8 : 64) * k_block * host.jobs.thread_count());
   host.jobs.for_ranges(end - begin, k_block, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = begin + first; k < begin + last; ++k) {
       const std::uint32_t sample = all ? static_cast<std::uint32_t>(k) : pending_[k];
@@ -243,7 +245,7 @@ void Solver::see_first_bounce() {
 // A unit of work on links that the mesh went ahead of; whether that was all of them.
 bool Solver::catch_up() {
   constexpr std::uint64_t k_links = 1u << 15;  // a thread, in slices
-  return hemispheres_->catch_up(*surface, (in_slices ? 1 : 16) * k_links * host.jobs.thread_count());
+  return hemispheres_->catch_up(*surface, (slice.pauses() ? 1 : 16) * k_links * host.jobs.thread_count());
 }
 
 }  // namespace radvor

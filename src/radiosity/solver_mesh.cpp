@@ -16,10 +16,10 @@ constexpr double k_few = 0.0005;
 
 // Raises the mesh's level where the light so far demands it; the new samples' light is next. Where it demands nothing
 // more, the next kind of light is due.
-void Solver::refine() {
+Steps Solver::refine(Pace& pace) {
   std::pmr::vector<Color> light(direct, &host.memory);
   if (options.spacing.refines && looking_) {
-    settle_surroundings();
+    co_await settle_surroundings(pace);
     const Color sky = k_pi * light_->sky_radiance();
     for (std::size_t i = 0; i < light.size(); ++i) {
       light[i] += settled_[i] - outlooks_[i].open * sky;
@@ -29,22 +29,15 @@ void Solver::refine() {
     const double mean = mean_of(light);
     const RefinementGoal goal{k_share_of_mesh * options.tolerance, mean};
     if (mean > 0) {
-      raised_ = plan_refinement(*surface, {light, sights_}, goal, host);
+      co_await plan_refinement(*surface, {light, sights_}, goal, host, raised_, pace);
     }
     if (!raised_.empty()) {
+      raised_by_probes_ = false;
       stage_ = Stage::remake;
-      return;
+      co_return;
     }
   }
   end_refinement();
-}
-
-void Solver::remake() {
-  const std::pmr::vector<std::uint32_t> raised(std::move(raised_));
-  raised_.clear();
-  if (!raise(raised)) {
-    end_refinement();
-  }
 }
 
 void Solver::end_refinement() {
@@ -57,11 +50,14 @@ void Solver::end_refinement() {
   }
 }
 
-// Whether there are new samples, whose direct light is then next.
-bool Solver::raise(std::span<const std::uint32_t> raised) {
+// Raises what is planned: new samples' direct light is next, if there are any.
+Steps Solver::remake(Pace& pace) {
+  const std::pmr::vector<std::uint32_t> raised(std::move(raised_));
+  raised_.clear();
   const std::uint32_t most = options.spacing.max_sites;
-  if (raised.empty() || (most != 0 && surface->sites().size() >= most)) {
-    return false;
+  if (most != 0 && surface->sites().size() >= most) {
+    end_remake();
+    co_return;
   }
   std::pmr::vector<Share> before(&host.memory);
   std::pmr::vector<std::uint32_t> before_sites(&host.memory);
@@ -71,24 +67,32 @@ bool Solver::raise(std::span<const std::uint32_t> raised) {
     for (const Sample& sample : surface->samples()) {
       before_sites.push_back(sample.site);
     }
+    co_await pace;
   }
   if (static_cast<double>(raised.size()) < k_few * static_cast<double>(direct.size())) {
-    surface->raise(raised, most);
+    co_await surface->raise(raised, most, pace);
   }
-  const auto origins = surface->refine(raised, most);
-  follow(before, before_sites, origins);
+  std::pmr::vector<SampleOrigin> origins(&host.memory);
+  co_await surface->refine(raised, most, {}, origins, pace);
+  co_await follow(before, before_sites, origins, pace);
   if (pending_.empty()) {
-    return false;
+    --round_;
+    end_remake();
   }
-  ++round_;
-  source_ = 0;
-  stage_ = Stage::direct;
-  return true;
 }
 
-// Renumbers what is known of samples and shares after a refinement; new samples are pending.
-void Solver::follow(std::span<const Share> before, std::span<const std::uint32_t> before_sites,
-                    std::span<const SampleOrigin> origins) {
+void Solver::end_remake() {
+  if (raised_by_probes_) {
+    end_probes();
+  } else {
+    end_refinement();
+  }
+}
+
+// Renumbers what is known of samples and shares after a refinement; new samples are pending. What is shown between
+// slices comes first.
+Steps Solver::follow(std::span<const Share> before, std::span<const std::uint32_t> before_sites,
+                     std::span<const SampleOrigin> origins, Pace& pace) {
   std::pmr::memory_resource* memory = &host.memory;
   std::pmr::vector<std::uint32_t> now(direct.size(), k_none, memory);
   pending_.clear();
@@ -126,10 +130,17 @@ void Solver::follow(std::span<const Share> before, std::span<const std::uint32_t
   keep_interpolated(now);
   renumber(unprobed_, origins, std::uint8_t{1});
   indirect.assign(origins.size(), Color(0.0));
+  due_again_.clear();
+  ++round_;
+  source_ = 0;
+  stage_ = Stage::direct;
+  co_await pace.time_for(seconds_of_pass());
 
   follow_receivers(origins);
+  co_await pace;
   if (hemispheres_->size() > 0) {
     hemispheres_->follow(follow_shares(before, before_sites, now, *surface, host));
+    co_await pace;
   }
   blocks_.emplace(*surface, receivers_, pending_, host);
 }

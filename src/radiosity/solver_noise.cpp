@@ -91,7 +91,8 @@ void Solver::measure_spreads() {
 
 // What hemispheres say of sky and surfaces; what was interpolated follows its anchors. reflected: what comes to each
 // sample by the links, whose spreads are measured; sky: of each sample, or empty; bend: see Certainty::most_bend.
-void Solver::free_of_noise(std::pmr::vector<Color>& reflected, std::pmr::vector<Color>& sky, double bend) const {
+Steps Solver::free_of_noise(std::pmr::vector<Color>& reflected, std::pmr::vector<Color>& sky, double bend,
+                            Pace& pace) const {
   const auto count = static_cast<std::uint32_t>(reflected.size());
   std::pmr::vector<Certainty> certain(count, Certainty{}, &host.memory);
   host.jobs.for_ranges(count, 256, [&](std::size_t begin, std::size_t end) {
@@ -113,34 +114,36 @@ void Solver::free_of_noise(std::pmr::vector<Color>& reflected, std::pmr::vector<
     }
   };
   follow_noise();
+  co_await pace.time_for(seconds_of_pass());
   const SampleNeighbours neighbours(*surface, host);
-  smooth(*surface, neighbours, certain, reflected, host);
+  co_await pace;
+  co_await smooth(*surface, neighbours, certain, reflected, host, pace);
   interpolate(interpolated_, reflected);
   if (sky.empty()) {
-    return;
+    co_return;
   }
   for (std::uint32_t i = 0; i < count; ++i) {
     certain[i].noise = noise_of_sky(i);
   }
   follow_noise();
-  smooth(*surface, neighbours, certain, sky, host);
+  co_await smooth(*surface, neighbours, certain, sky, host, pace);
   interpolate(interpolated_, sky);
 }
 
 // For the mesh to follow: what comes from all around by the first bounce. It is not to follow noise.
-void Solver::settle_surroundings() {
+Steps Solver::settle_surroundings(Pace& pace) {
   settled_.assign(first_bounce_.begin(), first_bounce_.end());
   std::pmr::vector<Color> sky = sky_light();
-  free_of_noise(settled_, sky, Certainty{}.most_bend);
+  co_await free_of_noise(settled_, sky, Certainty{}.most_bend, pace);
   for (std::size_t i = 0; i < sky.size(); ++i) {
     settled_[i] += sky[i];
   }
 }
 
 // At the end. What patches shot by themselves no ray had to find.
-void Solver::settle_noise() {
+Steps Solver::settle_noise(Pace& pace) {
   if (hemispheres_->size() == 0) {
-    return;
+    co_return;
   }
   const auto shares = surface->shares();
   radiosity_.resize(shares.size());
@@ -149,18 +152,21 @@ void Solver::settle_noise() {
     radiosity_[s] = as_sent(shot_alone_.empty() ? sent : glm::max(sent - shot_alone_[s], Color(0.0)));
   }
   measure_spreads();
+  co_await pace;
   const std::uint32_t most_sites = options.spacing.max_sites;
   const bool follows = options.spacing.refines && (most_sites == 0 || surface->sites().size() < most_sites);
   const double left_bent = k_left_bent * options.tolerance * 3 * (mean_of(direct) + mean_of(indirect));
   std::pmr::vector<Color> sky = sky_light();
   const std::pmr::vector<Color> noisy_sky(sky, &host.memory);
+  std::pmr::vector<Color> settled(indirect, &host.memory);
   for (std::size_t i = 0; i < from_standouts_.size(); ++i) {
-    indirect[i] -= from_standouts_[i];
+    settled[i] -= from_standouts_[i];
   }
-  free_of_noise(indirect, sky, follows ? left_bent : Certainty{}.most_bend);
+  co_await free_of_noise(settled, sky, follows ? left_bent : Certainty{}.most_bend, pace);
   for (std::size_t i = 0; i < from_standouts_.size(); ++i) {
-    indirect[i] += from_standouts_[i];
+    settled[i] += from_standouts_[i];
   }
+  indirect.swap(settled);
   for (std::size_t i = 0; i < sky.size(); ++i) {
     if (sky[i] != noisy_sky[i]) {  // else to the bit as it was
       direct[i] = glm::max(direct[i] - noisy_sky[i], Color(0.0)) + sky[i];

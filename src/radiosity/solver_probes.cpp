@@ -38,9 +38,18 @@ void Solver::probe() {
   if (!all) {
     return;
   }
-  if (round_ < 3 * surface->max_level() && raise(wrong_between())) {
+  if (round_ < 3 * surface->max_level()) {
+    raised_ = wrong_between();
+  }
+  if (!raised_.empty()) {
+    raised_by_probes_ = true;
+    stage_ = Stage::remake;
     return;
   }
+  end_probes();
+}
+
+void Solver::end_probes() {
   if (looking_) {
     stage_ = Stage::fit;
   } else {

@@ -81,7 +81,7 @@ void Solver::judge_shadows() {
   };
   constexpr std::uint32_t k_block = 64;
   const auto count = static_cast<std::uint32_t>((casts_.size() + k_block - 1) / k_block);
-  const std::uint32_t end = in_slices ? std::min(count, block_ + 16 * host.jobs.thread_count()) : count;
+  const std::uint32_t end = slice.pauses() ? std::min(count, block_ + 4 * host.jobs.thread_count()) : count;
   const std::size_t first = std::size_t{block_} * k_block;
   std::pmr::vector<std::optional<Shadowed>> judged(std::min(casts_.size(), std::size_t{end} * k_block) - first,
                                                    &host.memory);

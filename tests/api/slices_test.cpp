@@ -54,12 +54,29 @@ TEST(Slices, AnySequenceGivesTheSameBytes) {
       EXPECT_GE(progress.converged, converged) << "it never falls";
       EXPECT_LE(progress.converged, 1);
       converged = progress.converged;
+      if (slices % 5 == 0) {
+        baked.light();
+      }
       ASSERT_LT(slices, 1000000);
     }
     EXPECT_EQ(converged, 1);
     EXPECT_GT(progress.sites, 0u);
     EXPECT_TRUE(baked.light() == expected) << seconds << " seconds a slice";
   }
+}
+
+TEST(Slices, ASolutionMayGoInTheMiddleOfAnything) {
+  const radvor_bake_options options = coarse();
+  radvor_result result = RADVOR_TIME_SPENT;
+  for (int slices = 0; result == RADVOR_TIME_SPENT; slices += 3) {
+    Baked baked;
+    ASSERT_EQ(radvor_solution_create(baked.scene, &options, &baked.solution), RADVOR_OK) << baked.engine.error();
+    result = RADVOR_TIME_SPENT;
+    for (int slice = 0; slice < slices && result == RADVOR_TIME_SPENT; ++slice) {
+      result = radvor_solution_advance(baked.solution, 1e-9, nullptr);
+    }
+  }
+  EXPECT_EQ(result, RADVOR_OK);
 }
 
 TEST(Slices, AnyNumberOfThreadsGivesTheSameBytes) {

@@ -39,8 +39,13 @@ class Smoothing : public testing::Test {
     return std::sqrt(squares / static_cast<double>(values.size()));
   }
 
+  void smooth(const std::vector<Certainty>& certain, std::vector<Color>& values) {
+    Pace pace(&host.host.memory);
+    radvor::smooth(surface, neighbours, certain, values, host.host, pace).finish();
+  }
+
   std::vector<Color> smoothed(std::vector<Color> values, const Certainty& certainty) {
-    smooth(surface, neighbours, std::vector<Certainty>(values.size(), certainty), values, host.host);
+    smooth(std::vector<Certainty>(values.size(), certainty), values);
     return values;
   }
 
@@ -118,7 +123,7 @@ TEST_F(Smoothing, WhatRaysMissedNeighboursKnow) {
     certain.push_back({met ? 2.0 : 0.0, k_far});
   }
   const std::vector<Color> before = values;
-  smooth(surface, neighbours, certain, values, host.host);
+  smooth(certain, values);
   EXPECT_LT(rms(values), rms(before) / 3);
   double sum_after = 0, sum_before = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
