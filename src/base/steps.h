@@ -15,6 +15,7 @@
 // memory of the Pace that is among its arguments.
 #pragma once
 
+#include <cassert>
 #include <chrono>
 #include <coroutine>
 #include <cstddef>
@@ -49,8 +50,8 @@ class Pace {
     Pace& pace;
     double seconds;
   };
-  /// To be awaited before work of about so long that can't be left off: where it would go on for more than a quarter
-  /// longer than there is time, and the time has not only begun, that is over.
+  /// To be awaited before work of about so long that can't be left off: pauses where an eighth of the time is spent and
+  /// the work would end later than it by more than a quarter. What takes longer than the whole time is not cut short.
   TimeFor time_for(double seconds) { return {*this, seconds}; }
 
  private:
@@ -154,6 +155,7 @@ struct Steps::promise_type {
     for (const Argument& argument : {a, b, c, d, e, f, g, h}) {
       memory = argument.pace ? argument.pace->memory() : memory;
     }
+    assert(memory);  // one of the arguments must be a Pace
     auto* head = static_cast<Head*>(memory->allocate(sizeof(Head) + size, alignof(Head)));
     head->memory = memory;
     return head + 1;

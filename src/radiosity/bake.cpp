@@ -54,7 +54,8 @@ BakeStatus Bake::advance(double seconds, const ProgressCallback& callback) {
   state_->show_no_more();
   if (seconds > 0) {
     constexpr double k_no_end = 1e9;
-    const std::chrono::duration<double> given(std::min(seconds, k_no_end));
+    const double most = state_->options.max_seconds > 0 ? state_->options.max_seconds - before : k_no_end;
+    const std::chrono::duration<double> given(std::clamp(most, 0.0, std::min(seconds, k_no_end)));
     state_->slice.pause_at(begin, begin + std::chrono::duration_cast<Clock::duration>(given));
   } else {
     state_->slice.pause_no_more();

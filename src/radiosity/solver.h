@@ -229,8 +229,8 @@ class Solver {
   std::uint32_t round_ = 0;                 // of refinement
   std::optional<Silhouettes> silhouettes_;  // until they are cast
   std::pmr::vector<std::uint32_t> raised_;  // sites, by the refinement that is planned
-  bool raised_by_probes_ = false;
-  std::pmr::vector<CastShadow> casts_;  // to be judged
+  bool raised_by_probes_ = false;           // else by the light at samples: what comes next differs
+  std::pmr::vector<CastShadow> casts_;      // to be judged
   std::pmr::vector<Shadowed> shadowed_;
   std::pmr::vector<Probe> probes_;
   std::pmr::vector<Color> probed_;           // irradiance at each probe

@@ -131,7 +131,7 @@ Steps Solver::follow(std::span<const Share> before, std::span<const std::uint32_
   renumber(unprobed_, origins, std::uint8_t{1});
   indirect.assign(origins.size(), Color(0.0));
   due_again_.clear();
-  ++round_;
+  ++round_;  // what is shown of pending samples depends on these
   source_ = 0;
   stage_ = Stage::direct;
   co_await pace.time_for(seconds_of_pass());

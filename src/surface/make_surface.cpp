@@ -15,6 +15,7 @@ namespace radvor {
 namespace {
 
 constexpr double k_seconds_of_site = 2e-6;  // about, of a facet that is triangulated
+constexpr std::size_t k_facets_a_task = 64;
 
 class SurfaceMaker {
  public:
@@ -67,10 +68,12 @@ class SurfaceMaker {
     copy_shares(*remaking.before);
     co_await pace;
     co_await fill_shares(parts_, facets_, pace);
-    co_await pace.time_for(k_seconds_of_pass * static_cast<double>(parts_.shares.size()));
+    const double pass = k_seconds_of_pass * static_cast<double>(parts_.shares.size());
+    co_await pace.time_for(pass);
     make_samples(parts_);
     co_await pace;
     co_await find_origins(parts_, *remaking.before, facets_, remaking.origins, pace);
+    co_await pace.time_for(pass);  // for what is here, and for those who follow what is shown from now on
     remaking.before.reset();
     renumber_kept();
     free_retired();
@@ -205,13 +208,20 @@ class SurfaceMaker {
       record.first_share = shares;
       shares += record.two_sided ? 2 * record.share_count : record.share_count;
     }
+    parts_.host.jobs.for_ranges(facets_.size(), k_facets_a_task, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const FacetRecord& record = parts_.records[facets_[k]];
+        first_before_[facets_[k]] = record.first_share;
+        if (record.mesh != k_none) {
+          parts_.meshes[record.mesh]->number_shares(record.first_share);
+        }
+      }
+    });
     std::uint32_t degenerate = 0;
     for (const std::uint32_t facet : facets_) {
-      if (const FacetRecord& record = parts_.records[facet]; record.mesh != k_none) {
-        parts_.meshes[record.mesh]->number_shares(record.first_share);
+      if (parts_.records[facet].mesh != k_none) {
         degenerate += number_sites(facet) ? 0 : 1;
       }
-      first_before_[facet] = parts_.records[facet].first_share;
     }
     if (degenerate > 0) {
       parts_.host.log(LogLevel::info, "%u of %zu facets are too thin to be triangulated anew and keep their triangles",

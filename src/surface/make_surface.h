@@ -39,8 +39,8 @@ struct Remaking {
   std::pmr::vector<SampleOrigin> origins;  ///< of each sample, at the end
 };
 
-/// Makes the changed facets' triangles, and all shares and samples. Where it pauses the surface is not whole; it is as
-/// it was with what is in remaking.before.
+/// Makes the changed facets' triangles, and all shares and samples. Where it pauses the surface is not whole: while
+/// there is remaking.before, its trade_places() shows the surface as it was, and must be called again to go on.
 Steps remake_surface(SurfaceParts& parts, const ChangedFacets& changed, Remaking& remaking, Pace& pace);
 
 }  // namespace radvor

@@ -62,13 +62,21 @@ class OriginFinder {
     co_await ranges.for_each(parts_.host.jobs, match, pace);
   }
 
-  void find(std::pmr::vector<SampleOrigin>& found) const {
+  Steps find(std::pmr::vector<SampleOrigin>& found, Pace& pace) const {
+    constexpr std::size_t k_at_once = 8;  // tasks a thread
     found.resize(parts_.samples.size());
-    parts_.host.jobs.for_ranges(found.size(), k_samples, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t index = begin; index < end; ++index) {
-        found[index] = origin(parts_.samples[index]);
-      }
-    });
+    for (std::size_t first = 0; first < found.size();) {
+      const std::size_t left = found.size() - first;
+      const std::size_t count =
+          pace.pauses() ? std::min(left, k_at_once * k_samples * parts_.host.jobs.thread_count()) : left;
+      parts_.host.jobs.for_ranges(count, k_samples, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t index = first + begin; index < first + end; ++index) {
+          found[index] = origin(parts_.samples[index]);
+        }
+      });
+      first += count;
+      co_await pace;
+    }
   }
 
  private:
@@ -227,7 +235,7 @@ Steps find_origins(const SurfaceParts& parts, const SurfaceBefore& before, std::
                    std::pmr::vector<SampleOrigin>& origins, Pace& pace) {
   OriginFinder finder(parts, before);
   co_await finder.match_shares(changed, pace);
-  finder.find(origins);
+  co_await finder.find(origins, pace);
 }
 
 }  // namespace radvor

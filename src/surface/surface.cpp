@@ -196,8 +196,9 @@ std::uint32_t Surface::triangle_count() const {
 
 std::uint32_t Surface::constraint_count() const {
   std::uint32_t count = 0;
-  for (const auto& mesh : state_->meshes) {
-    count += !mesh || mesh->degenerate() ? 0 : mesh->triangulation().constraint_count();
+  for (std::uint32_t facet = 0; facet < state_->records.size(); ++facet) {
+    const FacetMesh* mesh = state_->triangulated(facet);
+    count += mesh ? mesh->triangulation().constraint_count() : 0;
   }
   return count;
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <radvor.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -18,10 +19,11 @@ struct LightOf {
   std::vector<std::uint8_t> found;
   std::string mesh_bytes;  ///< all arrays of the adaptive mesh
   std::uint32_t mesh_triangles = 0;
+  std::array<std::uint32_t, 5> counts{};  ///< of facets, elements, sites, triangles and constraints
 
   bool operator==(const LightOf& other) const {
     return vertices == other.vertices && points == other.points && found == other.found &&
-           mesh_bytes == other.mesh_bytes;
+           mesh_bytes == other.mesh_bytes && counts == other.counts;
   }
 };
 
@@ -73,6 +75,11 @@ inline LightOf read_light(radvor_solution* solution, std::uint32_t vertex_count)
   append(mesh.source_triangles, triangles * sizeof(std::uint32_t));
   append(mesh.source_weights, 9 * triangles * sizeof(float));
   light.mesh_triangles = mesh.triangle_count;
+
+  radvor_stats stats{};
+  stats.struct_size = sizeof stats;
+  EXPECT_EQ(radvor_solution_stats(solution, &stats), RADVOR_OK);
+  light.counts = {stats.facets, stats.elements, stats.sites, stats.triangles, stats.constraints};
   return light;
 }
 

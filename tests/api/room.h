@@ -79,4 +79,12 @@ inline radvor_bake_options coarse() {
   return options;
 }
 
+/// The mesh is refined more than once.
+inline radvor_bake_options refined() {
+  radvor_bake_options options = coarse();
+  options.tolerance = 0.03f;
+  options.min_spacing = 0.03f;
+  return options;
+}
+
 }  // namespace radvor::test

@@ -24,9 +24,8 @@ struct Baked {
   radvor_solution* solution = nullptr;
 };
 
-LightOf light_of_one_bake() {
+LightOf light_of_one_bake(const radvor_bake_options& options = coarse()) {
   Baked baked;
-  const radvor_bake_options options = coarse();
   EXPECT_EQ(radvor_bake(baked.scene, &options, &baked.solution), RADVOR_OK) << baked.engine.error();
   return baked.light();
 }
@@ -65,10 +64,56 @@ TEST(Slices, AnySequenceGivesTheSameBytes) {
   }
 }
 
-TEST(Slices, ASolutionMayGoInTheMiddleOfAnything) {
-  const radvor_bake_options options = coarse();
+// Cancels once the bake has come that far.
+struct Canceller {
+  double share;
+  bool asked = false;
+  bool in_time = false;  ///< asked while there was something left to do
+  int calls = 0;
+
+  static std::int32_t call(void* user, const radvor_progress* progress) {
+    auto& self = *static_cast<Canceller*>(user);
+    EXPECT_EQ(progress->struct_size, sizeof *progress);
+    ++self.calls;
+    self.asked = progress->converged >= self.share;
+    self.in_time = self.in_time || (self.asked && progress->converged < 1);
+    return self.asked ? 1 : 0;
+  }
+};
+
+// Left off after so many of the shortest slices, and cancelled at once, it goes on as if nothing had been.
+TEST(Slices, GoesOnFromTheMiddleOfAnything) {
+  const LightOf expected = light_of_one_bake(refined());
   radvor_result result = RADVOR_TIME_SPENT;
-  for (int slices = 0; result == RADVOR_TIME_SPENT; slices += 3) {
+  int slices = 0;
+  for (; result == RADVOR_TIME_SPENT; ++slices) {
+    Canceller canceller{2};
+    Baked baked;
+    radvor_bake_options options = refined();
+    options.progress = Canceller::call;
+    options.progress_user = &canceller;
+    ASSERT_EQ(radvor_solution_create(baked.scene, &options, &baked.solution), RADVOR_OK) << baked.engine.error();
+    result = RADVOR_TIME_SPENT;
+    for (int slice = 0; slice < slices && result == RADVOR_TIME_SPENT; ++slice) {
+      result = radvor_solution_advance(baked.solution, 1e-9, nullptr);
+    }
+    if (result == RADVOR_TIME_SPENT) {
+      canceller.share = 0;
+      EXPECT_EQ(radvor_solution_advance(baked.solution, 0, nullptr), RADVOR_CANCELLED);
+      baked.light();
+      canceller.share = 2;
+      EXPECT_EQ(radvor_solution_advance(baked.solution, slices % 2 == 0 ? 0 : 1e30, nullptr), RADVOR_OK);
+    }
+    ASSERT_TRUE(baked.light() == expected) << slices;
+  }
+  EXPECT_EQ(result, RADVOR_OK);
+  EXPECT_GT(slices, 60);
+}
+
+TEST(Slices, ASolutionMayGoInTheMiddleOfAnything) {
+  const radvor_bake_options options = refined();
+  radvor_result result = RADVOR_TIME_SPENT;
+  for (int slices = 0; result == RADVOR_TIME_SPENT; ++slices) {
     Baked baked;
     ASSERT_EQ(radvor_solution_create(baked.scene, &options, &baked.solution), RADVOR_OK) << baked.engine.error();
     result = RADVOR_TIME_SPENT;
@@ -90,26 +135,16 @@ TEST(Slices, AnyNumberOfThreadsGivesTheSameBytes) {
       const radvor_bake_options options = coarse();
       ASSERT_EQ(radvor_bake(baked.scene, &options, &baked.solution), RADVOR_OK) << baked.engine.error();
       EXPECT_TRUE(baked.light() == expected) << threads << " threads, lent: " << lent;
+      radvor_solution_destroy(baked.solution);
+      ASSERT_EQ(radvor_solution_create(baked.scene, &options, &baked.solution), RADVOR_OK) << baked.engine.error();
+      radvor_result result = RADVOR_TIME_SPENT;
+      while (result == RADVOR_TIME_SPENT) {
+        result = radvor_solution_advance(baked.solution, 1e-9, nullptr);
+      }
+      EXPECT_TRUE(baked.light() == expected) << threads << " threads, in slices, lent: " << lent;
     }
   }
 }
-
-// Cancels once the bake has come that far.
-struct Canceller {
-  double share;
-  bool asked = false;
-  bool in_time = false;  ///< asked while there was something left to do
-  int calls = 0;
-
-  static std::int32_t call(void* user, const radvor_progress* progress) {
-    auto& self = *static_cast<Canceller*>(user);
-    EXPECT_EQ(progress->struct_size, sizeof *progress);
-    ++self.calls;
-    self.asked = progress->converged >= self.share;
-    self.in_time = self.in_time || (self.asked && progress->converged < 1);
-    return self.asked ? 1 : 0;
-  }
-};
 
 class Cancelling : public testing::TestWithParam<double> {};
 

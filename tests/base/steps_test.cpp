@@ -7,36 +7,16 @@
 #include <stdexcept>
 #include <vector>
 
+#include "support/counted_memory.h"
+
 namespace radvor {
 namespace {
 
 using std::chrono::hours;
 
-// Counts what it gives out.
-class CountedMemory : public std::pmr::memory_resource {
- public:
-  std::size_t bytes = 0, blocks_ever = 0;
-  std::size_t most_blocks = 1000;
-
- private:
-  void* do_allocate(std::size_t size, std::size_t alignment) override {
-    if (blocks_ever == most_blocks) {
-      throw std::bad_alloc();
-    }
-    ++blocks_ever;
-    bytes += size;
-    return std::pmr::new_delete_resource()->allocate(size, alignment);
-  }
-  void do_deallocate(void* block, std::size_t size, std::size_t alignment) override {
-    bytes -= size;
-    std::pmr::new_delete_resource()->deallocate(block, size, alignment);
-  }
-  bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
-};
-
 class StepsTest : public testing::Test {
  protected:
-  CountedMemory memory;
+  test::CountedMemory memory;
   Pace pace{&memory};
   std::vector<int> done;
 

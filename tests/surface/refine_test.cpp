@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "support/counted_memory.h"
 #include "surface/made_surface.h"
 #include "surface/solids.h"
 
@@ -351,6 +352,7 @@ struct Seen {
       numbers.insert(numbers.end(), {sample.area, static_cast<double>(sample.first_share)});
     }
     std::pmr::vector<Vec3> cell;
+    std::size_t triangle_count = 0;
     for (std::uint32_t share = 0; share < surface.shares().size(); ++share) {
       surface.cell(share, cell);
       std::for_each(cell.begin(), cell.end(), add);
@@ -358,6 +360,7 @@ struct Seen {
     for (std::uint32_t facet = 0; facet < facets; ++facet) {
       const auto of = surface.triangles(facet);
       triangles.insert(triangles.end(), of.begin(), of.end());
+      triangle_count += of.size();
       if (!of.empty()) {
         const Frame& frame = surface.facets().facets[facet].frame;
         const FacetPoint found = surface.locate(facet, frame.to_plane(surface.shares()[of[0][0]].centroid));
@@ -365,6 +368,8 @@ struct Seen {
         numbers.insert(numbers.end(), found.weights.begin(), found.weights.end());
       }
     }
+    numbers.push_back(surface.constraint_count());
+    EXPECT_EQ(surface.triangle_count(), triangle_count);
   }
   bool operator==(const Seen&) const = default;
 
@@ -383,14 +388,17 @@ TEST(Refine, InStepsItIsAsBeforeUntilTheEnd) {
     for (int round = 0; round < 3; ++round) {
       const Seen before(in_steps.surface, facets);
       const auto sites = some_sites(at_once.surface, 20, random);
+      const Share& share = at_once.surface.shares()[random() % at_once.surface.shares().size()];
+      const std::array wanted = {WantedSite{share.facet, share.centroid}};
+      const auto most = static_cast<std::uint32_t>(round < 2 ? 0 : at_once.surface.sites().size() + 15);
       std::pmr::vector<SampleOrigin> origins;
-      Steps steps = in_steps.surface.refine(sites, 0, {}, origins, pace);
+      Steps steps = in_steps.surface.refine(sites, most, wanted, origins, pace);
       int pauses = 0;
       for (; steps.go_on(); ++pauses) {
         ASSERT_TRUE(Seen(in_steps.surface, facets) == before) << round << ", " << pauses;
       }
       EXPECT_GT(pauses, 5);
-      const auto expected = at_once.surface.refine(sites);
+      const auto expected = at_once.surface.refine(sites, most, wanted);
       EXPECT_EQ(positions(in_steps.surface), positions(at_once.surface));
       EXPECT_TRUE(Seen(in_steps.surface, facets) == Seen(at_once.surface, facets));
       ASSERT_EQ(origins.size(), expected.size());
@@ -405,16 +413,24 @@ TEST(Refine, InStepsItIsAsBeforeUntilTheEnd) {
 }
 
 TEST(Refine, LeftOffForGoodItLetsAllGo) {
-  for (int pauses = 0; pauses < 12; ++pauses) {
+  test::CountedMemory frames;
+  bool is_over = false;
+  for (int pauses = 0; !is_over; ++pauses) {
     MadeSurface made(room(), options(0.9, 3));
     const std::vector<std::uint32_t> sites{0, 1, 2, 3};
     std::pmr::vector<SampleOrigin> origins;
-    Pace pace(heap());
+    Pace pace(&frames);
     pace.pause_at({}, {});  // long ago
-    Steps steps = made.surface.refine(sites, 0, {}, origins, pace);
-    for (int k = 0; k < pauses; ++k) {
-      steps.go_on();
+    {
+      Steps steps = made.surface.refine(sites, 0, {}, origins, pace);
+      for (int k = 0; k < pauses; ++k) {
+        is_over = !steps.go_on();
+        EXPECT_EQ(is_over, !origins.empty());
+      }
+      EXPECT_GT(frames.bytes, 0u);
     }
+    EXPECT_EQ(frames.bytes, 0u);
+    EXPECT_TRUE(!is_over || pauses > 5);
   }
 }
 
