@@ -36,7 +36,10 @@ delaunay::TriangleId QuickLocation::walk(const Vec2& point, delaunay::TriangleId
   const auto x = static_cast<float>(exact.x);
   const auto y = static_cast<float>(exact.y);
   constexpr int k_most_steps = 64;
-  for (int step = 0; step < k_most_steps && t != delaunay::k_none; ++step) {
+  for (int step = 0; step < k_most_steps; ++step) {
+    if (t >= k_thin_one) {
+      return t;
+    }
     const Triangle& at = triangles_[t];
     std::array<float, 3> area;
     std::uint32_t least =
@@ -93,7 +96,7 @@ void QuickLocation::fill(const delaunay::Triangulation& triangulation,
       made.x[k] = static_cast<float>(corner.x);
       made.y[k] = static_cast<float>(corner.y);
       const delaunay::TriangleId next = delaunay::triangle_of(triangulation.twin(delaunay::half_edge(t, (k + 1) % 3)));
-      made.beyond[k] = is_told[next] != 0 ? next : delaunay::k_none;
+      made.beyond[k] = is_told[next] != 0 ? next : triangulation.is_triangle(next) ? k_thin_one : delaunay::k_none;
     }
     made.index = index_of_triangle[t];
   }
@@ -102,15 +105,16 @@ void QuickLocation::fill(const delaunay::Triangulation& triangulation,
   rows_ = static_cast<std::uint32_t>(std::clamp(std::sqrt(most * (size.y / size.x)), 1.0, most));
   per_unit_ = Vec2(columns_, rows_) / size;
   starts_.reserve(std::size_t{columns_} * rows_);
-  // Beyond the hull the square before knows best; a row begins where the one below it began.
+  // Beyond the hull the square before knows best; a row begins where the one below it began. Where walks end at thin
+  // triangles, of which there are rows along borders and contacts, the triangulation is asked.
   std::array<double, 3> weights;
   delaunay::TriangleId last = delaunay::k_none;
   for (std::uint32_t row = 0; row < rows_; ++row) {
     last = row == 0 ? last : starts_[std::size_t{row - 1} * columns_];
     for (std::uint32_t column = 0; column < columns_; ++column) {
       const Vec2 middle = low_ + (Vec2(column, row) + 0.5) / per_unit_;
-      const delaunay::TriangleId found =
-          last == delaunay::k_none ? triangulation.locate_roughly(middle, weights) : walk(middle, last, weights);
+      delaunay::TriangleId found = last == delaunay::k_none ? k_thin_one : walk(middle, last, weights);
+      found = found == k_thin_one ? triangulation.locate_roughly(middle, weights) : found;
       last = found != delaunay::k_none && is_told[found] != 0 ? found : last;
       starts_.push_back(last);
     }

@@ -34,7 +34,7 @@ class QuickLocation {
   /// their sides apart, and elsewhere too. from: what start() told.
   std::uint32_t find(const Vec2& point, delaunay::TriangleId from, std::array<double, 3>& weights) const {
     const delaunay::TriangleId t = from == delaunay::k_none ? from : walk(point, from, weights);
-    return t == delaunay::k_none ? t : triangles_[t].index;
+    return t >= k_thin_one ? delaunay::k_none : triangles_[t].index;
   }
 
   /// For many at once: memory is asked ahead for what start() and then find() read first.
@@ -51,13 +51,16 @@ class QuickLocation {
   }
 
  private:
+  static constexpr delaunay::TriangleId k_thin_one = delaunay::k_none - 1;  // a triangle that no walk goes through
+
   struct Triangle {
     std::array<float, 3> x{}, y{};  // of the corners, from low_, over the facet's size
     std::array<delaunay::TriangleId, 3> beyond{delaunay::k_none, delaunay::k_none,
-                                               delaunay::k_none};  // across from each
+                                               delaunay::k_none};  // across from each, or k_thin_one
     std::uint32_t index = delaunay::k_none;
   };
 
+  // The triangle that the point is in, k_thin_one where such a one is in the way, or delaunay::k_none.
   delaunay::TriangleId walk(const Vec2& point, delaunay::TriangleId t, std::array<double, 3>& weights) const;
 
   std::size_t square(const Vec2& point) const {

@@ -65,6 +65,25 @@ TEST(QuickLocation, IsOffByAFloatsRoundingAtTheFacetsSizeHoweverThinATriangleIs)
   }
 }
 
+// Sites so near to a constraint that no walk leads from one side of it to the other.
+TEST(QuickLocation, FindsWhatLiesBehindARowOfNeedles) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<Vec2> points = {{0.3, 0}, {0.3, 1}};
+  for (int k = 0; k < 40; ++k) {
+    points.emplace_back(0.3 + 1e-8, (k + 0.5) / 40.0);
+  }
+  for (int k = 0; k < 1000; ++k) {
+    points.emplace_back(uniform(random), uniform(random));
+  }
+  const Quick quick(points, true);
+  int found = 0;
+  for (int k = 0; k < 1000; ++k) {
+    found += quick.error_at({0.02 + 0.96 * uniform(random), 0.02 + 0.96 * uniform(random)}) < 3e-7 ? 1 : 0;
+  }
+  EXPECT_GT(found, 980);
+}
+
 TEST(QuickLocation, AtAnyScale) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(0, 1);
