@@ -1,6 +1,7 @@
 #include "base/regions.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <memory>
 #include <new>
@@ -52,8 +53,12 @@ constexpr std::size_t pages_of(std::size_t bytes) {
   return (bytes + Regions::k_page - 1) / Regions::k_page;
 }
 
+// One of eight sizes up to the double: an array that is made anew a little larger fits where the last one lay. What is
+// added is mostly never touched.
 constexpr std::size_t pages_of_block(std::size_t bytes) {
-  return pages_of(std::max(bytes, Regions::k_least));
+  const std::size_t pages = pages_of(std::max(bytes, Regions::k_least));
+  const std::size_t step = std::max<std::size_t>(1, std::bit_floor(pages) / 8);
+  return (pages + step - 1) / step * step;
 }
 
 struct Hole {

@@ -97,7 +97,7 @@ TEST_F(RegionsTest, HolesJoinAgain) {
     stress(seed, 1000, blocks);
     give_back(blocks);
     EXPECT_EQ(regions.bytes(), one);  // one stays, whole but for its head:
-    const std::size_t whole = one - one / 1024;
+    const std::size_t whole = one - one / 16;
     void* const block = regions.allocate(whole);
     EXPECT_EQ(regions.bytes(), one);
     EXPECT_TRUE(regions.deallocate(block, whole));
@@ -113,6 +113,24 @@ TEST_F(RegionsTest, AreUsedAgain) {
     give_back(blocks);
   }
   EXPECT_EQ(regions.bytes(), one);
+}
+
+// Arrays that are made anew while the last ones are still there, each time a little larger.
+TEST_F(RegionsTest, WhatGrowsALittleLiesWhereTheLastButOneDid) {
+  std::size_t bytes = 33 * (one / 50);
+  void* before = regions.allocate(bytes);
+  void* now = regions.allocate(bytes + bytes / 100);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_TRUE(regions.deallocate(before, bytes));
+    bytes += bytes / 100;
+    void* const next = regions.allocate(bytes + bytes / 100);
+    EXPECT_EQ(next, before);
+    before = now;
+    now = next;
+  }
+  EXPECT_EQ(regions.bytes(), 2 * one);
+  EXPECT_TRUE(regions.deallocate(before, bytes));
+  EXPECT_TRUE(regions.deallocate(now, bytes));
 }
 
 // One page between the smallest blocks: as many holes as there may be.
@@ -159,10 +177,10 @@ TEST_F(RegionsTest, TheMostHoles) {
 
 // An eighth of what is in use may lie idle, or one region.
 TEST_F(RegionsTest, GoBackToTheSystemThoughSomethingIsLeft) {
-  constexpr std::size_t k_left = std::size_t{1} << 20;
-  void* const left = regions.allocate(k_left);
+  const std::size_t few = one / 8;
+  void* const left = regions.allocate(few);
   std::vector<void*> blocks;
-  const std::size_t most = one - one / 1024;
+  const std::size_t most = one - one / 16;
   for (int k = 0; k < 10; ++k) {
     blocks.push_back(regions.allocate(most));
   }
@@ -171,7 +189,7 @@ TEST_F(RegionsTest, GoBackToTheSystemThoughSomethingIsLeft) {
     EXPECT_TRUE(regions.deallocate(block, most));
   }
   EXPECT_LE(regions.bytes(), 2 * one);
-  EXPECT_TRUE(regions.deallocate(left, k_left));
+  EXPECT_TRUE(regions.deallocate(left, few));
   EXPECT_EQ(regions.bytes(), one);
 }
 
