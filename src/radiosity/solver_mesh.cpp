@@ -59,6 +59,16 @@ Steps Solver::remake(Pace& pace) {
     end_remake();
     co_return;
   }
+  const std::size_t sites = surface->sites().size();
+  const double few = k_few * static_cast<double>(direct.size());
+  co_await surface->raise(raised, most, pace);
+  if (static_cast<double>(raised.size()) < few) {
+    co_await surface->raise(raised, most, pace);
+  }
+  if (surface->sites().size() == sites) {
+    end_remake();
+    co_return;
+  }
   std::pmr::vector<Share> before(&host.memory);
   std::pmr::vector<std::uint32_t> before_sites(&host.memory);
   if (hemispheres_->size() > 0) {
@@ -69,11 +79,8 @@ Steps Solver::remake(Pace& pace) {
     }
     co_await pace;
   }
-  if (static_cast<double>(raised.size()) < k_few * static_cast<double>(direct.size())) {
-    co_await surface->raise(raised, most, pace);
-  }
   std::pmr::vector<SampleOrigin> origins(&host.memory);
-  co_await surface->refine(raised, most, {}, origins, pace);
+  co_await surface->refine({}, most, {}, origins, pace);
   co_await follow(before, before_sites, origins, pace);
   if (pending_.empty()) {
     --round_;
