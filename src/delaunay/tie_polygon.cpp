@@ -12,6 +12,8 @@ namespace radvor::delaunay {
 namespace {
 constexpr std::uint32_t k_most_exact = 40;  // corners; cubic time above
 
+// The determinant is the power of the point times the triangle's doubled area: a needle's is small at any point, so the
+// area, too, is what it is compared to. For the corners of a rectangle that asks for no more.
 bool lies_near_circle(const Triangulation& d, TriangleId t, Vec2 point, double tolerance) {
   const auto corners = d.triangle(t);
   Vec2 from[3];
@@ -28,7 +30,10 @@ bool lies_near_circle(const Triangulation& d, TriangleId t, Vec2 point, double t
     determinant += lift[k] * (b.x * c.y - c.x * b.y);
     magnitude += lift[k] * (std::fabs(b.x * c.y) + std::fabs(c.x * b.y));
   }
-  return std::fabs(determinant) <= tolerance * magnitude;
+  const Vec2 along = from[1] - from[0], across = from[2] - from[0];
+  const double doubled_area = std::fabs(along.x * across.y - along.y * across.x);
+  return std::fabs(determinant) <=
+         tolerance * std::min(magnitude, 4 * doubled_area * *std::max_element(lift, lift + 3));
 }
 }  // namespace
 

@@ -17,8 +17,9 @@ class TiePolygon {
   /// The polygon around a triangle; returns its number of corners, 3 where no tie is.
   std::uint32_t collect(const Triangulation& triangulation, TriangleId seed);
   /// The same, of corners near the triangle's circle: in-circle determinants are at most `tolerance` of the sum of
-  /// their terms' magnitudes; 0: on it. Unlike ties these are no classes: `taken`, not 0 for triangles of other
-  /// polygons (by id), keeps them apart.
+  /// their terms' magnitudes, and of four times the triangle's doubled area times the greatest squared distance of one
+  /// of its corners from the other corner; 0: on it. Unlike ties these are no classes: `taken`, not 0 for triangles of
+  /// other polygons (by id), keeps them apart.
   std::uint32_t collect_near(const Triangulation& triangulation, TriangleId seed, double tolerance,
                              std::span<const std::uint8_t> taken);
   std::span<const TriangleId> triangles() const { return triangles_; }

@@ -10,14 +10,14 @@ namespace {
 
 constexpr std::size_t k_range = 4096;  // shares of a task
 
-bool alike(const Share& a, const Share& b) {
+bool alike(const Share& a, const SharesBefore::Share& b) {
   return a.facet == b.facet && a.back == b.back;
 }
 
 // Where a share's sample is no more (a facet too thin to be triangulated anew takes its sectors apart): the share of
 // the same facet and side at the same site, or any of the facet.
-void place_orphans(std::span<const Share> before, std::span<const std::uint32_t> sites_before,
-                   std::span<const std::uint32_t> orphans, const Surface& surface, ShareChanges& changes) {
+void place_orphans(const SharesBefore& before, std::span<const std::uint32_t> orphans, const Surface& surface,
+                   ShareChanges& changes) {
   const auto shares = surface.shares();
   const auto samples = surface.samples();
   std::pmr::vector<std::uint32_t> first_at_site(surface.sites().size(), k_none, changes.now.get_allocator());
@@ -31,13 +31,14 @@ void place_orphans(std::span<const Share> before, std::span<const std::uint32_t>
     any_of_facet[shares[s].facet] = shares[s].back ? any_of_facet[shares[s].facet] : s;
   }
   for (const std::uint32_t s : orphans) {
-    std::uint32_t share = first_at_site[sites_before[before[s].sample]];
-    while (share != k_none && !alike(shares[share], before[s])) {
+    const SharesBefore::Share& old = before.shares[s];
+    std::uint32_t share = first_at_site[before.sites[old.sample]];
+    while (share != k_none && !alike(shares[share], old)) {
       share = next_at_site[share];
     }
-    const std::uint32_t front = any_of_facet[before[s].facet];
-    changes.now[s] = share != k_none ? share : before[s].back ? shares[front].other_side : front;
-    taken_apart[before[s].facet] = 1;
+    const std::uint32_t front = any_of_facet[old.facet];
+    changes.now[s] = share != k_none ? share : old.back ? shares[front].other_side : front;
+    taken_apart[old.facet] = 1;
   }
   for (std::uint32_t s = 0; s < shares.size(); ++s) {
     changes.divided[s] |= taken_apart[shares[s].facet];
@@ -81,30 +82,45 @@ void mark_divided(std::span<const std::uint32_t> samples_now, const Surface& sur
 
 }  // namespace
 
-ShareChanges follow_shares(std::span<const Share> before, std::span<const std::uint32_t> sites_before,
-                           std::span<const std::uint32_t> samples_now, const Surface& surface, Host& host) {
+SharesBefore::SharesBefore(const Surface& surface, Host& host)
+    : shares(surface.shares().size(), &host.memory), sites(surface.samples().size(), &host.memory) {
+  host.jobs.for_ranges(shares.size(), k_range, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) {
+      const radvor::Share& share = surface.shares()[s];
+      shares[s] = {share.sample, share.facet, share.back};
+    }
+  });
+  host.jobs.for_ranges(sites.size(), k_range, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      sites[i] = surface.samples()[i].site;
+    }
+  });
+}
+
+ShareChanges follow_shares(const SharesBefore& before, std::span<const std::uint32_t> samples_now,
+                           const Surface& surface, Host& host) {
   const auto shares = surface.shares();
   const auto samples = surface.samples();
-  ShareChanges changes{std::pmr::vector<std::uint32_t>(before.size(), k_none, &host.memory),
+  ShareChanges changes{std::pmr::vector<std::uint32_t>(before.shares.size(), k_none, &host.memory),
                        std::pmr::vector<std::uint8_t>(shares.size(), 0, &host.memory)};
-  host.jobs.for_ranges(before.size(), k_range, [&](std::size_t begin, std::size_t end) {
+  host.jobs.for_ranges(before.shares.size(), k_range, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
-      const std::uint32_t sample = samples_now[before[s].sample];
+      const std::uint32_t sample = samples_now[before.shares[s].sample];
       std::uint32_t share = sample == k_none ? k_none : samples[sample].first_share;
-      while (share != k_none && !alike(shares[share], before[s])) {
+      while (share != k_none && !alike(shares[share], before.shares[s])) {
         share = shares[share].next_in_sample;
       }
       changes.now[s] = share;
     }
   });
   std::pmr::vector<std::uint32_t> orphans(&host.memory);
-  for (std::uint32_t s = 0; s < before.size(); ++s) {
+  for (std::uint32_t s = 0; s < before.shares.size(); ++s) {
     if (changes.now[s] == k_none) {
       orphans.push_back(s);
     }
   }
   if (!orphans.empty()) {
-    place_orphans(before, sites_before, orphans, surface, changes);
+    place_orphans(before, orphans, surface, changes);
   }
   mark_divided(samples_now, surface, changes.divided, host);
   return changes;

@@ -34,9 +34,21 @@ class ShareMoves {
   RawVector<std::uint32_t> moves_;  // per old share: its number now, and whether it was divided on the way
 };
 
-/// before: the old shares; sites_before: the site of each old sample; samples_now: the number of each old sample,
-/// k_none where it is no more. surface: as it is now.
-ShareChanges follow_shares(std::span<const Share> before, std::span<const std::uint32_t> sites_before,
-                           std::span<const std::uint32_t> samples_now, const Surface& surface, Host& host);
+/// What there is to know of shares once they are no more.
+struct SharesBefore {
+  struct Share {
+    std::uint32_t sample, facet;
+    bool back;
+  };
+
+  SharesBefore(const Surface& surface, Host& host);
+
+  RawVector<Share> shares;
+  RawVector<std::uint32_t> sites;  ///< of each sample
+};
+
+/// samples_now: the number of each old sample, k_none where it is no more. surface: as it is now.
+ShareChanges follow_shares(const SharesBefore& before, std::span<const std::uint32_t> samples_now,
+                           const Surface& surface, Host& host);
 
 }  // namespace radvor

@@ -114,8 +114,7 @@ class Solver {
   void place_probes_due();
   std::pmr::vector<std::uint32_t> wrong_between() const;
   void begin_looking();
-  Steps follow(std::span<const Share> before, std::span<const std::uint32_t> before_sites,
-               std::span<const SampleOrigin> origins, Pace& pace);
+  Steps follow(const std::optional<SharesBefore>& before, std::span<const SampleOrigin> origins, Pace& pace);
   template <class Value>
   void renumber(std::pmr::vector<Value>& values, std::span<const SampleOrigin> origins, const Value& unknown);
   void keep_interpolated(std::span<const std::uint32_t> now);
@@ -147,7 +146,7 @@ class Solver {
   std::pmr::vector<Color> sky_light() const;
   Steps settle_noise(Pace& pace);
   Steps finish(Pace& pace);
-  void align_ties();
+  Steps align_ties(Pace& pace);
   void place_fit_probes();
   Steps fit_between(Pace& pace);
   Color punctual_light(const Receiver& receiver, Tracer& tracer) const;

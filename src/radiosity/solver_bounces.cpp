@@ -40,11 +40,13 @@ Steps Solver::account(Pace& pace) {
   stats_.escaped_power = powers.escaped;
   stats_.absorbed_back_power = powers.backs;
   stats_.rays += powers.rays;
+  co_await pace;
   const auto shares = surface->shares();
   unshot_.reserve(shares.size());
   for (const Share& share : shares) {
     unshot_.push_back(fit.empty() ? direct[share.sample] : direct[share.sample] + fit[share.sample]);
   }
+  co_await pace.time_for(seconds_of_pass());
   incoming_.assign(receivers_.size(), Color(0.0));
   pending_.clear();
   links_read_.assign(records_.size(), 0);

@@ -17,16 +17,17 @@ constexpr double k_fitted = 0.01;  // of the squared tolerance: share of the are
 }  // namespace
 
 // Where the triangulation is free its edges follow the light.
-void Solver::align_ties() {
+Steps Solver::align_ties(Pace& pace) {
   if ((options.disable & Disable::tie_alignment) != 0) {
-    return;
+    co_return;
   }
   std::pmr::vector<double> values(&host.memory);
   values.reserve(direct.size());
   for (std::size_t i = 0; i < direct.size(); ++i) {
     values.push_back(luminance(direct[i] + first_bounce_[i]));
   }
-  const Ties ties = surface->align_ties(values, options.tie_tolerance);
+  Ties ties;
+  co_await surface->align_ties(values, options.tie_tolerance, ties, pace);
   stats_.ties = ties.count;
   stats_.realigned_ties = ties.realigned;
 }
@@ -44,7 +45,7 @@ Steps Solver::fit_between(Pace& pace) {
     co_return;
   }
   if (block_ == 0) {
-    align_ties();
+    co_await align_ties(pace);
     if (!options.spacing.refines || light_->source_count() == 0) {
       stage_ = Stage::account;
       co_return;

@@ -69,19 +69,13 @@ Steps Solver::remake(Pace& pace) {
     end_remake();
     co_return;
   }
-  std::pmr::vector<Share> before(&host.memory);
-  std::pmr::vector<std::uint32_t> before_sites(&host.memory);
+  std::optional<SharesBefore> before;  // for links
   if (hemispheres_->size() > 0) {
-    before.assign(surface->shares().begin(), surface->shares().end());
-    before_sites.reserve(direct.size());
-    for (const Sample& sample : surface->samples()) {
-      before_sites.push_back(sample.site);
-    }
-    co_await pace;
+    before.emplace(*surface, host);
   }
   std::pmr::vector<SampleOrigin> origins(&host.memory);
   co_await surface->refine({}, most, {}, origins, pace);
-  co_await follow(before, before_sites, origins, pace);
+  co_await follow(before, origins, pace);
   if (pending_.empty()) {
     --round_;
     end_remake();
@@ -98,8 +92,7 @@ void Solver::end_remake() {
 
 // Renumbers what is known of samples and shares after a refinement; new samples are pending. What is shown between
 // slices comes first.
-Steps Solver::follow(std::span<const Share> before, std::span<const std::uint32_t> before_sites,
-                     std::span<const SampleOrigin> origins, Pace& pace) {
+Steps Solver::follow(const std::optional<SharesBefore>& before, std::span<const SampleOrigin> origins, Pace& pace) {
   std::pmr::memory_resource* memory = &host.memory;
   std::pmr::vector<std::uint32_t> now(direct.size(), k_none, memory);
   pending_.clear();
@@ -145,8 +138,8 @@ Steps Solver::follow(std::span<const Share> before, std::span<const std::uint32_
 
   follow_receivers(origins);
   co_await pace;
-  if (hemispheres_->size() > 0) {
-    hemispheres_->follow(follow_shares(before, before_sites, now, *surface, host));
+  if (before) {
+    hemispheres_->follow(follow_shares(*before, now, *surface, host));
     co_await pace;
   }
   blocks_.emplace(*surface, receivers_, pending_, host);

@@ -28,6 +28,35 @@ struct Surface::State : SurfaceParts {
     const ChangedFacets changed = refinement->take_changes();
     co_await remake_surface(*this, changed, remaking, pace);
   }
+
+  // Facet by facet: wherever it pauses, each is as it was or aligned.
+  Steps align_ties(std::span<const double> value_of, double tolerance, Ties& ties, Pace& pace) {
+    constexpr double k_hexagonal_rounding = 0x1p-10;
+    const double least = options.lattice == Lattice::hexagonal ? k_hexagonal_rounding : 0;
+    std::pmr::vector<double> values(memory);
+    values.reserve(shares.size());
+    for (const Share& share : shares) {
+      values.push_back(value_of[share.sample]);
+    }
+    std::pmr::vector<Ties> of_mesh(meshes.size(), memory);
+    constexpr double k_task = 512;
+    const auto weight = [&](std::uint32_t k) {
+      return 1.0 + static_cast<double>(meshes[k] ? meshes[k]->triangles().size() : 0);
+    };
+    const EvenRanges ranges(of_mesh.size(), k_task, weight, memory);
+    const auto align = [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
+      for (std::uint32_t k = begin; k < end; ++k) {
+        if (meshes[k] && !meshes[k]->degenerate()) {
+          of_mesh[k] = meshes[k]->align_ties(values, std::max(tolerance, least), memory);
+        }
+      }
+    };
+    co_await ranges.for_each(host.jobs, align, pace);
+    for (const Ties& of : of_mesh) {
+      ties.count += of.count;
+      ties.realigned += of.realigned;
+    }
+  }
 };
 
 namespace {
@@ -114,38 +143,20 @@ Steps Surface::raise(std::span<const std::uint32_t> sites, std::uint32_t max_sit
 }
 
 Ties Surface::align_ties(std::span<const double> value_of, double tolerance) {
-  const FloatingPointGuard guard(Denormals::keep);
+  Pace pace(memory_);
+  Ties ties;
+  align_ties(value_of, tolerance, ties, pace).finish();
+  return ties;
+}
+
+Steps Surface::align_ties(std::span<const double> value_of, double tolerance, Ties& ties, Pace& pace) {
   if (value_of.size() != state_->samples.size()) {
     throw Error(ErrorCode::invalid_argument, "%zu values for %zu samples", value_of.size(), state_->samples.size());
   }
-  constexpr double k_hexagonal_rounding = 0x1p-10;
-  if (state_->options.lattice == Lattice::hexagonal) {
-    tolerance = std::max(tolerance, k_hexagonal_rounding);
+  Steps steps = state_->align_ties(value_of, tolerance, ties, pace);
+  while (go_on(steps)) {
+    co_await pace;
   }
-  std::pmr::vector<double> values(memory_);
-  values.reserve(state_->shares.size());
-  for (const Share& share : state_->shares) {
-    values.push_back(value_of[share.sample]);
-  }
-  std::pmr::vector<Ties> of_mesh(state_->meshes.size(), memory_);
-  constexpr double k_task = 512;
-  const auto weight = [&](std::uint32_t k) {
-    return 1.0 + static_cast<double>(state_->meshes[k] ? state_->meshes[k]->triangles().size() : 0);
-  };
-  const EvenRanges ranges(of_mesh.size(), k_task, weight, memory_);
-  ranges.for_each(state_->host.jobs, [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t k = begin; k < end; ++k) {
-      if (state_->meshes[k] && !state_->meshes[k]->degenerate()) {
-        of_mesh[k] = state_->meshes[k]->align_ties(values, tolerance, memory_);
-      }
-    }
-  });
-  Ties ties;
-  for (const Ties& more : of_mesh) {
-    ties.count += more.count;
-    ties.realigned += more.realigned;
-  }
-  return ties;
 }
 
 std::uint32_t Surface::level_of(std::uint32_t site) const {

@@ -168,10 +168,13 @@ class Surface {
 
   /// Ties follow the light, for output: the diagonals of every polygon whose sites lie on one circle join those of most
   /// similar value. What is nearly a tie counts: where an in-circle determinant is at most `tolerance` of the sum of
-  /// its terms' magnitudes, 0 to 1; on the hexagonal lattice at most 2^-10 always, as its steps are rounded to 12 bits.
-  /// value_of: per sample, finite or NaN (its polygons stay as they are); fronts count. triangles() changes and
-  /// nothing else; refine() undoes it on the facets that it changes.
+  /// its terms' magnitudes, 0 to 1, or of what its triangle's area makes of that where it is thin; on the hexagonal
+  /// lattice at most 2^-10 always, as its steps are rounded to 12 bits. value_of: per sample, finite or NaN (its
+  /// polygons stay as they are); fronts count. triangles() changes and nothing else; refine() undoes it on the facets
+  /// that it changes.
   Ties align_ties(std::span<const double> value_of, double tolerance);
+  /// The same in steps, between which a facet's are aligned or not. ties: added to.
+  Steps align_ties(std::span<const double> value_of, double tolerance, Ties& ties, Pace& pace);
 
   /// The share's cell, counter-clockwise about its own side's normal, star-shaped about its site; replaces polygon.
   /// Areas of a facet's cells sum to its area to 1e-12; each point belongs to the nearest site that it sees.

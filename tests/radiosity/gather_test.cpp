@@ -60,24 +60,21 @@ class Links : public testing::Test {
   }
 
   void refine(const Vec3& around, double reach) {
-    const std::vector<Share> shares(made.surface.shares().begin(), made.surface.shares().end());
-    std::vector<std::uint32_t> sites_before, raised;
-    for (const Sample& sample : made.surface.samples()) {
-      sites_before.push_back(sample.site);
-    }
+    const SharesBefore before(made.surface, made.host);
+    std::vector<std::uint32_t> raised;
     for (std::uint32_t s = 0; s < made.surface.sites().size(); ++s) {
       if (glm::distance(made.surface.sites()[s].position, around) < reach) {
         raised.push_back(s);
       }
     }
     const auto origins = made.surface.refine(raised, 0);
-    std::vector<std::uint32_t> now(sites_before.size(), k_none);
+    std::vector<std::uint32_t> now(before.sites.size(), k_none);
     for (std::uint32_t i = 0; i < origins.size(); ++i) {
       if (origins[i].kept) {
         now[origins[i].samples[0]] = i;
       }
     }
-    const ShareChanges changes = follow_shares(shares, sites_before, now, made.surface, made.host);
+    const ShareChanges changes = follow_shares(before, now, made.surface, made.host);
     gather.follow(changes);
   }
 
