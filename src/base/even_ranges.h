@@ -51,15 +51,13 @@ class EvenRanges {
   template <class Function>
   Steps for_each(const Jobs& jobs, Function& function, Pace& pace) const {
     const auto order = by_weight();
-    for (std::uint32_t first = 0; first < size();) {
-      const std::uint32_t count = std::min(size() - first, pace.pauses() ? k_at_once * jobs.thread_count() : size());
-      jobs.for_each(count, [&](std::uint32_t k) {
+    const auto run = [&](std::size_t first, std::size_t last) {
+      jobs.for_each(static_cast<std::uint32_t>(last - first), [&](std::uint32_t k) {
         const Range& range = ranges_[order[first + k]];
         function(order[first + k], range.begin, range.end);
       });
-      first += count;
-      co_await pace;
-    }
+    };
+    co_await in_portions(size(), k_at_once * jobs.thread_count(), run, pace);
   }
 
   /// The same in no order, for tasks beside each other that touch memory beside each other (Jobs::for_each_in_parts).

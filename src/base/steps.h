@@ -15,6 +15,7 @@
 // memory of the Pace that is among its arguments.
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <chrono>
 #include <coroutine>
@@ -198,6 +199,17 @@ inline bool Steps::go_on() {  // NOLINT(misc-no-recursion)
     std::rethrow_exception(std::exchange(promise.failure, nullptr));
   }
   return false;
+}
+
+/// function(begin, end) for all of 0 to count: at once or, where it may pause, for a portion after the other.
+template <class Function>
+Steps in_portions(std::size_t count, std::size_t portion, Function& function, Pace& pace) {
+  for (std::size_t begin = 0; begin < count;) {
+    const std::size_t end = pace.pauses() ? std::min(count, begin + portion) : count;
+    function(begin, end);
+    begin = end;
+    co_await pace;
+  }
 }
 
 }  // namespace radvor

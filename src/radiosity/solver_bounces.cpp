@@ -116,7 +116,7 @@ Steps Solver::shoot_standout(Pace& pace) {
   }
   tree.pull(light, host);
 
-  const auto shine_on = [&](std::uint32_t block, Tracer& tracer) {
+  const auto shine_on_block = [&](std::uint32_t block, Tracer& tracer) {
     LinkMaker maker(tree, occluder_tree_ ? &*occluder_tree_ : nullptr, {}, &host.memory);
     std::pmr::vector<Link> links(&host.memory);
     for (const std::uint32_t sample : blocks_->block(block)) {
@@ -128,13 +128,10 @@ Steps Solver::shoot_standout(Pace& pace) {
       }
     }
   };
-  for (std::uint32_t begin = 0; begin < blocks_->count();) {
-    const std::uint32_t at_once = pace.pauses() ? 4 * host.jobs.thread_count() : blocks_->count();
-    const std::uint32_t end = begin + std::min(at_once, blocks_->count() - begin);
-    over(begin, end, shine_on);
-    begin = end;
-    co_await pace;
-  }
+  const auto shine_on = [&](std::size_t begin, std::size_t end) {
+    over(static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end), shine_on_block);
+  };
+  co_await in_portions(blocks_->count(), std::size_t{4} * host.jobs.thread_count(), shine_on, pace);
   interpolate(interpolated_, incoming_);
   stood_out_[patch] = 1;
   shot_alone_.resize(shares.size(), Color(0.0));

@@ -64,19 +64,16 @@ class OriginFinder {
 
   Steps find(std::pmr::vector<SampleOrigin>& found, Pace& pace) const {
     constexpr std::size_t k_at_once = 8;  // tasks a thread
+    const Jobs& jobs = parts_.host.jobs;
     found.resize(parts_.samples.size());
-    for (std::size_t first = 0; first < found.size();) {
-      const std::size_t left = found.size() - first;
-      const std::size_t count =
-          pace.pauses() ? std::min(left, k_at_once * k_samples * parts_.host.jobs.thread_count()) : left;
-      parts_.host.jobs.for_ranges(count, k_samples, [&](std::size_t begin, std::size_t end) {
+    const auto find_some = [&](std::size_t first, std::size_t last) {
+      jobs.for_ranges(last - first, k_samples, [&](std::size_t begin, std::size_t end) {
         for (std::size_t index = first + begin; index < first + end; ++index) {
           found[index] = origin(parts_.samples[index]);
         }
       });
-      first += count;
-      co_await pace;
-    }
+    };
+    co_await in_portions(found.size(), k_at_once * k_samples * jobs.thread_count(), find_some, pace);
   }
 
  private:

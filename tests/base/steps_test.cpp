@@ -134,6 +134,27 @@ TEST_F(StepsTest, ThrowsToTheWorkThatWaitsAndOut) {
   }
 }
 
+TEST_F(StepsTest, GoesThroughAllInPortionsOrAtOnce) {
+  const auto add = [&](std::size_t begin, std::size_t end) {
+    done.push_back(static_cast<int>(begin));
+    done.push_back(static_cast<int>(end));
+  };
+  in_portions(0, 3, add, pace).finish();
+  EXPECT_TRUE(done.empty());
+  in_portions(7, 3, add, pace).finish();
+  EXPECT_EQ(done, (std::vector{0, 7}));
+  done.clear();
+  pause_everywhere();
+  Steps steps = in_portions(7, 3, add, pace);
+  EXPECT_TRUE(steps.go_on());
+  EXPECT_EQ(done, (std::vector{0, 3}));
+  EXPECT_TRUE(steps.go_on());
+  EXPECT_EQ(done, (std::vector{0, 3, 3, 6}));
+  pace.pause_no_more();
+  EXPECT_FALSE(steps.go_on());
+  EXPECT_EQ(done, (std::vector{0, 3, 3, 6, 6, 7}));
+}
+
 TEST_F(StepsTest, LetsMemoryGoWhereverItEnds) {
   pause_everywhere();
   for (int pauses = 0; pauses < 6; ++pauses) {
@@ -149,9 +170,8 @@ TEST_F(StepsTest, LetsMemoryGoWhereverItEnds) {
 
 TEST_F(StepsTest, RunsOutOfMemoryInOrder) {
   pause_everywhere();
-  for (std::size_t most = 0; most < 3; ++most) {
-    memory.blocks_ever = 0;
-    memory.most_blocks = most;
+  for (int most = 0; most < 3; ++most) {
+    memory.left = most;
     EXPECT_THROW(count_twice(pace).finish(), std::bad_alloc);
     EXPECT_EQ(memory.bytes, 0u);
   }

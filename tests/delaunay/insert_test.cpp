@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "delaunay/point_sets.h"
 #include "delaunay/triangulation.h"
+#include "support/counted_memory.h"
 
 namespace radvor::delaunay {
 namespace {
@@ -55,38 +56,22 @@ TEST_P(PointSets, any_order_and_bulk_agree) {
   EXPECT_EQ(canonical_triangles(halves), expected);
 }
 
-struct Counting : std::pmr::memory_resource {
-  std::size_t calls = 0, bytes = 0;
-
- private:
-  void* do_allocate(std::size_t size, std::size_t alignment) override {
-    ++calls;
-    bytes += size;
-    return std::pmr::new_delete_resource()->allocate(size, alignment);
-  }
-  void do_deallocate(void* block, std::size_t size, std::size_t alignment) override {
-    bytes -= size;
-    std::pmr::new_delete_resource()->deallocate(block, size, alignment);
-  }
-  bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
-};
-
 TEST_P(PointSets, room_made_ahead_and_memory_let_go_change_nothing) {
   const auto points = GetParam().make(200, 19);
   const std::span<const Vec2> all(points);
-  Counting of_plain, of_trimmed;
+  test::CountedMemory of_plain, of_trimmed;
   Triangulation plain(&of_plain);
   Triangulation trimmed(&of_trimmed);
   trimmed.reserve(static_cast<std::uint32_t>(points.size()));
-  const std::size_t reserved = of_trimmed.calls;
+  const std::size_t reserved = of_trimmed.blocks_ever;
   std::size_t calls_of_plain = 0;
   for (Triangulation* d : {&plain, &trimmed}) {
     d->insert_many(all.first(100), nullptr);
     if (d == &trimmed) {
-      EXPECT_LT(of_trimmed.calls - reserved, calls_of_plain);
+      EXPECT_LT(of_trimmed.blocks_ever - reserved, calls_of_plain);
       d->trim();
     } else {
-      calls_of_plain = of_plain.calls;
+      calls_of_plain = of_plain.blocks_ever;
     }
     for (const Vec2 point : all.subspan(100, 50)) {
       d->insert(point);

@@ -8,28 +8,12 @@
 #include "base/error.h"
 #include "delaunay/point_sets.h"
 #include "delaunay/triangulation.h"
+#include "support/counted_memory.h"
 
 namespace radvor::delaunay {
 namespace {
 
 using testing::canonical_triangles;
-
-class Failing final : public std::pmr::memory_resource {
- public:
-  std::int64_t left = INT64_MAX;  // allocations until one fails
-
- private:
-  void* do_allocate(std::size_t bytes, std::size_t alignment) override {
-    if (left-- == 0) {
-      throw std::bad_alloc();
-    }
-    return std::pmr::new_delete_resource()->allocate(bytes, alignment);
-  }
-  void do_deallocate(void* memory, std::size_t bytes, std::size_t alignment) override {
-    std::pmr::new_delete_resource()->deallocate(memory, bytes, alignment);
-  }
-  bool do_is_equal(const std::pmr::memory_resource& other) const noexcept override { return this == &other; }
-};
 
 struct State {
   explicit State(const Triangulation& d)
@@ -54,7 +38,7 @@ using Edit = std::function<void(Triangulation&)>;
 void fail_everywhere(const Edit& prepare, const Edit& edit) {
   for (std::int64_t n = 0;; ++n) {
     ASSERT_LT(n, 10000);
-    Failing memory;
+    test::CountedMemory memory;
     Triangulation d(&memory);
     prepare(d);
     const State before(d);

@@ -1,7 +1,8 @@
-// The heap, counted, which can come to an end.
+// The heap, counted, which may refuse a block.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory_resource>
 #include <new>
 
@@ -11,11 +12,11 @@ class CountedMemory : public std::pmr::memory_resource {
  public:
   std::size_t bytes = 0;  ///< in use
   std::size_t blocks_ever = 0;
-  std::size_t most_blocks = 1000;  ///< ever: the next is refused
+  std::int64_t left = INT64_MAX;  ///< blocks until one is refused; those after it are given again
 
  private:
   void* do_allocate(std::size_t size, std::size_t alignment) override {
-    if (blocks_ever == most_blocks) {
+    if (left-- == 0) {
       throw std::bad_alloc();
     }
     ++blocks_ever;
