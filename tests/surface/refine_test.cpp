@@ -7,65 +7,29 @@
 #include <set>
 
 #include "base/error.h"
-#include "support/counted_memory.h"
 #include "surface/made_surface.h"
-#include "surface/solids.h"
+#include "surface/refined_scenes.h"
 
 namespace radvor {
 namespace {
 
-using test::heap;
+using test::expect_true;
+using test::floor_of_one;
+using test::k_scenes;
+using test::l_shaped;
 using test::MadeSurface;
+using test::Make;
+using test::options;
 using test::positions;
+using test::ring;
 using test::room;
-using test::SceneBuilder;
+using test::slit_floor;
+using test::smooth_cylinder;
+using test::some_sites;
 
 constexpr Lattice k_both[] = {Lattice::hexagonal, Lattice::quadrilateral};
 
-using Make = Scene (*)();
-
-Scene l_shaped() {
-  SceneBuilder builder(heap());
-  test::l_shaped_room(builder);
-  return builder.take();
-}
-Scene smooth_cylinder() {
-  SceneBuilder builder(heap());
-  test::cylinder(builder, 24, 1.0, 1.0, true);
-  return builder.take();
-}
-Scene slit_floor() {
-  SceneBuilder builder(heap());
-  test::floor_with_wall(builder);
-  return builder.take();
-}
-Scene ring() {
-  SceneBuilder builder(heap());
-  std::mt19937 random(3);
-  std::vector<Vec2> outer, inner;
-  test::random_rings(random, 9, outer, inner);
-  builder.prism(outer, inner, 0.7f);
-  return builder.take();
-}
-Scene floor_of_one() {
-  SceneBuilder builder(heap());
-  builder.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
-  return builder.take();
-}
-constexpr Make k_scenes[] = {room, l_shaped, smooth_cylinder, slit_floor, ring, floor_of_one};
-
-SurfaceOptions options(double spacing, std::uint32_t refinements, Lattice lattice = Lattice::hexagonal,
-                       std::uint32_t element_levels = 0) {
-  return {lattice, spacing, element_levels, std::ldexp(spacing, -static_cast<int>(element_levels + refinements))};
-}
-
 using Point = std::array<double, 3>;
-
-void expect_true(const MadeSurface& made) {
-  test::audit(made);
-  test::audit_cells(made);
-  test::expect_balanced(made);
-}
 
 std::vector<std::uint32_t> all_below(const Surface& surface, std::uint32_t level) {
   std::vector<std::uint32_t> sites;
@@ -191,17 +155,6 @@ TEST(Refine, SitesDependOnWhatWasRaisedNotOnTheOrder) {
       EXPECT_TRUE(now == first) << "trial " << trial << ": " << now.size() << " and " << first.size() << " sites";
     }
   }
-}
-
-// Random sites, mostly the latest, so that refinement goes deep somewhere.
-std::vector<std::uint32_t> some_sites(const Surface& surface, std::size_t wanted, std::mt19937& random) {
-  std::vector<std::uint32_t> sites;
-  const auto count = static_cast<std::uint32_t>(surface.sites().size());
-  for (std::size_t k = 0; k < wanted; ++k) {
-    const auto of = k % 2 == 0 ? count : count / 5 + 1;
-    sites.push_back(count - 1 - static_cast<std::uint32_t>(random()) % of);
-  }
-  return sites;
 }
 
 TEST(Refine, LightThatIsLinearOnEveryFacetStaysAsItWas) {
@@ -334,103 +287,6 @@ TEST(Refine, RaisingWithoutTrianglesComesToTheSame) {
       EXPECT_TRUE(std::ranges::equal(one.surface.triangles(facet), each.surface.triangles(facet)));
     }
     EXPECT_THROW(one.surface.raise(std::vector<std::uint32_t>{1u << 30}), Error);
-  }
-}
-
-// What may be asked of a surface, sites apart.
-struct Seen {
-  explicit Seen(const Surface& surface, std::size_t facets) {
-    const auto add = [&](const Vec3& v) { numbers.insert(numbers.end(), {v.x, v.y, v.z}); };
-    for (const Share& share : surface.shares()) {
-      add(share.centroid);
-      numbers.insert(numbers.end(), {share.area, static_cast<double>(share.sample), static_cast<double>(share.facet)});
-    }
-    for (const Sample& sample : surface.samples()) {
-      add(sample.point);
-      add(sample.normal);
-      add(surface.sites()[sample.site].position);
-      numbers.insert(numbers.end(), {sample.area, static_cast<double>(sample.first_share)});
-    }
-    std::pmr::vector<Vec3> cell;
-    std::size_t triangle_count = 0;
-    for (std::uint32_t share = 0; share < surface.shares().size(); ++share) {
-      surface.cell(share, cell);
-      std::for_each(cell.begin(), cell.end(), add);
-    }
-    for (std::uint32_t facet = 0; facet < facets; ++facet) {
-      const auto of = surface.triangles(facet);
-      triangles.insert(triangles.end(), of.begin(), of.end());
-      triangle_count += of.size();
-      if (!of.empty()) {
-        const Frame& frame = surface.facets().facets[facet].frame;
-        const FacetPoint found = surface.locate(facet, frame.to_plane(surface.shares()[of[0][0]].centroid));
-        triangles.push_back(found.shares);
-        numbers.insert(numbers.end(), found.weights.begin(), found.weights.end());
-      }
-    }
-    numbers.push_back(surface.constraint_count());
-    EXPECT_EQ(surface.triangle_count(), triangle_count);
-  }
-  bool operator==(const Seen&) const = default;
-
-  std::vector<double> numbers;
-  std::vector<ShareTriangle> triangles;
-};
-
-// Wherever a refinement is left off the surface is what it was; in the end it is what comes of refining it at once.
-TEST(Refine, InStepsItIsAsBeforeUntilTheEnd) {
-  for (const Make make : k_scenes) {
-    MadeSurface in_steps(make(), options(0.9, 3)), at_once(make(), options(0.9, 3));
-    const std::size_t facets = at_once.facets.facets.size();
-    Pace pace(heap());
-    pace.pause_at({}, {});  // long ago
-    std::mt19937 random(5);
-    for (int round = 0; round < 3; ++round) {
-      const Seen before(in_steps.surface, facets);
-      const auto sites = some_sites(at_once.surface, 20, random);
-      const Share& share = at_once.surface.shares()[random() % at_once.surface.shares().size()];
-      const std::array wanted = {WantedSite{share.facet, share.centroid}};
-      const auto most = static_cast<std::uint32_t>(round < 2 ? 0 : at_once.surface.sites().size() + 15);
-      std::pmr::vector<SampleOrigin> origins;
-      Steps steps = in_steps.surface.refine(sites, most, wanted, origins, pace);
-      int pauses = 0;
-      for (; steps.go_on(); ++pauses) {
-        ASSERT_TRUE(Seen(in_steps.surface, facets) == before) << round << ", " << pauses;
-      }
-      EXPECT_GT(pauses, 5);
-      const auto expected = at_once.surface.refine(sites, most, wanted);
-      EXPECT_EQ(positions(in_steps.surface), positions(at_once.surface));
-      EXPECT_TRUE(Seen(in_steps.surface, facets) == Seen(at_once.surface, facets));
-      ASSERT_EQ(origins.size(), expected.size());
-      for (std::size_t i = 0; i < origins.size(); ++i) {
-        EXPECT_EQ(origins[i].samples, expected[i].samples);
-        EXPECT_EQ(origins[i].weights, expected[i].weights);
-        EXPECT_EQ(origins[i].kept, expected[i].kept);
-      }
-      expect_true(in_steps);
-    }
-  }
-}
-
-TEST(Refine, LeftOffForGoodItLetsAllGo) {
-  test::CountedMemory frames;
-  bool is_over = false;
-  for (int pauses = 0; !is_over; ++pauses) {
-    MadeSurface made(room(), options(0.9, 3));
-    const std::vector<std::uint32_t> sites{0, 1, 2, 3};
-    std::pmr::vector<SampleOrigin> origins;
-    Pace pace(&frames);
-    pace.pause_at({}, {});  // long ago
-    {
-      Steps steps = made.surface.refine(sites, 0, {}, origins, pace);
-      for (int k = 0; k < pauses; ++k) {
-        is_over = !steps.go_on();
-        EXPECT_EQ(is_over, !origins.empty());
-      }
-      EXPECT_GT(frames.bytes, 0u);
-    }
-    EXPECT_EQ(frames.bytes, 0u);
-    EXPECT_TRUE(!is_over || pauses > 5);
   }
 }
 
