@@ -115,6 +115,9 @@ class Solver {
   std::pmr::vector<std::uint32_t> wrong_between() const;
   void begin_looking();
   Steps follow(const std::optional<SharesBefore>& before, std::span<const SampleOrigin> origins, Pace& pace);
+  // function(sample) for what guess() does in one of its blocks.
+  template <class Function>
+  void for_each_to_guess(std::uint32_t block, Function&& function) const;
   template <class Value>
   void renumber(std::pmr::vector<Value>& values, std::span<const SampleOrigin> origins, const Value& unknown);
   void keep_interpolated(std::span<const std::uint32_t> now);
@@ -239,7 +242,7 @@ class Solver {
   bool sounded_out_ = false;  // how many rays the scene is worth
   std::uint32_t level_ = 0;   // of the hemispheres
   std::uint32_t block_ = 0;   // next block of what is under way
-  std::uint32_t guessed_blocks_ = 0;
+  std::uint32_t guessed_blocks_ = 0;  // of twice all: see for_each_to_guess()
   bool may_guess_ = true;  // memory has not run out over it
   std::uint32_t bounces_ = 0;
   double previous_unshot_ = 0, first_unshot_ = 0;

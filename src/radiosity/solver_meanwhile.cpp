@@ -12,20 +12,32 @@ namespace radvor {
 
 bool Solver::guesses() const {
   const bool first = stage_ == Stage::direct && under_way_.is_done() && !looking_ && round_ == 0;
-  return may_guess_ && first && source_ < light_->source_count() && guessed_blocks_ < blocks_->count();
+  return may_guess_ && first && source_ < light_->source_count() && guessed_blocks_ < 2 * blocks_->count();
+}
+
+// Corners come first, all over the scene, since they are what engines ask for; then, all blocks once more, the rest.
+template <class Function>
+void Solver::for_each_to_guess(std::uint32_t block, Function&& function) const {
+  const auto samples = surface->samples();
+  const auto sites = surface->sites();
+  const bool corners = block < blocks_->count();
+  for (const std::uint32_t sample : blocks_->block(corners ? block : block - blocks_->count())) {
+    if ((sites[samples[sample].site].vertex != k_none) == corners) {
+      function(sample);
+    }
+  }
 }
 
 void Solver::guess() {
   try {
     guessed_.resize(direct.size(), Color(0.0));
     const std::uint32_t begin = guessed_blocks_;
-    const std::uint32_t end = std::min(blocks_->count(), begin + 4 * host.jobs.thread_count());
+    const std::uint32_t end = std::min(2 * blocks_->count(), begin + 4 * host.jobs.thread_count());
     host.jobs.for_each(end - begin, [&](std::uint32_t index) {
       Tracer tracer(*visibility_);
       LightGuess guess(*light_, &host.memory);
-      for (const std::uint32_t sample : blocks_->block(begin + index)) {
-        guessed_[sample] = guess.at(receivers_[sample], tracer);
-      }
+      for_each_to_guess(begin + index,
+                        [&](std::uint32_t sample) { guessed_[sample] = guess.at(receivers_[sample], tracer); });
     });
     guessed_blocks_ = end;
   } catch (const std::bad_alloc&) {  // it is for show alone
@@ -52,9 +64,7 @@ void Solver::show() {
   }
   if (shines && !looking_ && round_ == 0) {
     for (std::uint32_t block = 0; block < guessed_blocks_; ++block) {
-      for (const std::uint32_t sample : blocks_->block(block)) {
-        shown_[sample] = guessed_[sample];
-      }
+      for_each_to_guess(block, [&](std::uint32_t sample) { shown_[sample] = guessed_[sample]; });
     }
   }
   if (!looking_) {

@@ -218,6 +218,38 @@ TEST(Meanwhile, PanelsAreGuessedToTenPercentFromTheFirstSlicesOn) {
   EXPECT_LT(std::sqrt(squares / count), 0.1 * light / count);
 }
 
+TEST(Meanwhile, CornersAreGuessedAtBeforeAllElse) {
+  SceneBuilder builder;
+  builder.box({0, 0, 0}, {4, 2, 2}, true, builder.material(Color(0.5)));
+  Light light;
+  light.type = LightType::point;
+  light.position = {1, 1, 1};
+  light.color = Color(1);
+  builder.scene.lights.push_back(light);
+  BakeOptions options = uniform();
+  options.spacing.patch_spacing = 0.1;
+  TestBake bake(builder.take(), options);
+  std::size_t corners_alone = 0, some_of_the_rest = 0;
+  for (const double before = (*bake).progress().converged;
+       bake->advance(1e-9, {}) == BakeStatus::time_spent && (*bake).progress().converged == before;) {
+    const Surface& surface = (*bake).surface();
+    std::size_t dark_corners = 0, bright_corners = 0, bright_others = 0, others = 0;
+    for (std::size_t i = 0; i < surface.samples().size(); ++i) {
+      const bool corner = surface.sites()[surface.samples()[i].site].vertex != k_none;
+      const bool bright = (*bake).direct()[i].r > 0;
+      dark_corners += corner && !bright ? 1 : 0;
+      bright_corners += corner && bright ? 1 : 0;
+      bright_others += !corner && bright ? 1 : 0;
+      others += corner ? 0 : 1;
+    }
+    ASSERT_TRUE(dark_corners == 0 || bright_others == 0);
+    corners_alone += bright_corners > 0 && bright_others == 0 ? 1 : 0;
+    some_of_the_rest += bright_others > 0 && bright_others < others ? 1 : 0;
+  }
+  EXPECT_GT(corners_alone, 0u);
+  EXPECT_GT(some_of_the_rest, 0u);
+}
+
 TEST(Meanwhile, WhatIsShownChangesNothing) {
   TestBake sliced(ground_with_a_pole(), fine()), whole(ground_with_a_pole(), fine());
   ASSERT_EQ(sliced.run(1e-9), BakeStatus::converged);
