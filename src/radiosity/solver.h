@@ -122,6 +122,7 @@ class Solver {
   void renumber(std::pmr::vector<Value>& values, std::span<const SampleOrigin> origins, const Value& unknown);
   void keep_interpolated(std::span<const std::uint32_t> now);
   void begin_level();
+  bool differ(const SampleOrigin& anchor) const;
   void share_out_rays(double scale);
   std::uint32_t rays_for(std::uint32_t sample) const;
   void look_from(std::uint32_t sample, std::uint32_t rays, Tracer& tracer);
@@ -194,6 +195,7 @@ class Solver {
 
   std::pmr::vector<Receiver> receivers_;
   double mean_area_ = 0;                    // of samples, when receivers were placed last
+  double mean_light_ = 0;                   // of all receiving sides, three channels as one, sounded out
   std::pmr::vector<std::uint8_t> in_slot_;  // of each sample: it looks from where a slot's light is its mean
   std::optional<ReceiverBlocks> blocks_;
   std::pmr::vector<std::uint64_t> sights_;        // of each sample: what it sees of the sources
@@ -238,12 +240,12 @@ class Solver {
   std::pmr::vector<Color> probed_;           // irradiance at each probe
   std::pmr::vector<std::uint8_t> unprobed_;  // of each sample: no probe was near it
   double rays_per_length_ = 0;
-  bool looking_ = false;      // around: direct light alone has its mesh
-  bool sounded_out_ = false;  // how many rays the scene is worth
-  std::uint32_t level_ = 0;   // of the hemispheres
-  std::uint32_t block_ = 0;   // next block of what is under way
+  bool looking_ = false;              // around: direct light alone has its mesh
+  bool sounded_out_ = false;          // how many rays the scene is worth
+  std::uint32_t level_ = 0;           // of the hemispheres
+  std::uint32_t block_ = 0;           // next block of what is under way
   std::uint32_t guessed_blocks_ = 0;  // of twice all: see for_each_to_guess()
-  bool may_guess_ = true;  // memory has not run out over it
+  bool may_guess_ = true;             // memory has not run out over it
   std::uint32_t bounces_ = 0;
   double previous_unshot_ = 0, first_unshot_ = 0;
   std::uint64_t idle_rays_ = 0, rays_before_standouts_ = 0;  // the latter without the former

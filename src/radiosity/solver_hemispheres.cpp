@@ -4,6 +4,7 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "base/hash.h"
@@ -16,6 +17,7 @@ namespace radvor {
 namespace {
 
 constexpr double k_least_weight = 1e-6;          // of an anchor that matters
+constexpr double k_alike = 3;                    // tolerances of the mean light that anchors may differ by
 constexpr std::uint32_t k_rays_of_glimpse = 16;  // one packet
 constexpr std::uint64_t k_seed_of_glimpse = 0x676c696d70736573;
 constexpr float k_wide_open = 0.5f;   // share of the view that is sky, from which on its edges matter less
@@ -44,6 +46,9 @@ void Solver::begin_level() {
   const auto sites = surface->sites();
   const bool lazy = (options.disable & Disable::lazy) == 0;
   const double most = k_reach * std::sqrt(options.tolerance);
+  if (level_ == 0) {
+    reflect_direct();
+  }
   std::pmr::vector<std::uint32_t> looking(&host.memory);
   for (const std::uint32_t i : pending_) {
     if (sites[samples[i].site].level != level_) {
@@ -60,17 +65,19 @@ void Solver::begin_level() {
                 glm::dot(samples[i].normal, samples[other].normal) < k_same_way;
       }
     }
-    if (looks) {
+    if (looks || differ(anchor)) {
       looking.push_back(i);
       continue;
     }
     Outlook& own = outlooks_[i];
+    first_bounce_[i] = Color(0.0);
     for (std::size_t k = 0; k < 3; ++k) {
       const Outlook& other = outlooks_[anchor.samples[k]];
       const double weight = anchor.weights[k];
       own.open += weight * other.open;
       own.backs += weight * other.backs;
       own.inverse_distance += weight * other.inverse_distance;
+      first_bounce_[i] += weight * first_bounce_[anchor.samples[k]];
     }
     known_[i] = 1;
     interpolated_.push_back(i);
@@ -90,6 +97,23 @@ void Solver::begin_level() {
   for (const std::uint32_t sample : looking) {
     ray_counts_.push_back(rays_for(sample));
   }
+}
+
+// Whether light from all around may bend between a sample's anchors: by one reflection of what is known of direct
+// light, and the sky, they get more and less. Beside the edge of a table whose top is lit, what a wall sees changes at
+// once, however far the table is.
+bool Solver::differ(const SampleOrigin& anchor) const {
+  const double sky = k_pi * sum(light_->sky_radiance());
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (anchor.weights[k] > k_least_weight) {
+      const std::uint32_t other = anchor.samples[k];
+      const double light = sum(first_bounce_[other]) + outlooks_[other].open * sky;
+      low = std::min(low, light);
+      high = std::max(high, light);
+    }
+  }
+  return high - low > k_alike * options.tolerance * mean_light_;
 }
 
 // Casts a sample's rays, unless as many of them, or more, have been.
@@ -175,6 +199,7 @@ Steps Solver::look_around(Pace& pace) {
       block_, end,
       [&](std::uint32_t sample, Tracer& tracer) {
         look_from(sample, ray_counts_[records_[sample] - first_record_], tracer);
+        first_bounce_[sample] = hemispheres_->gather(records_[sample], radiosity_);
         known_[sample] = 1;
       },
       k_tasks_a_block);

@@ -33,7 +33,6 @@ double Solver::noise_of_sky(std::uint32_t sample) const {
 // all cast more; where it is more so, fewer: a courtyard under the sky needs fewer than a crypt with a candle. As
 // certain as the tolerance is enough, since neighbours share what they know.
 void Solver::sound_out_noise() {
-  reflect_direct();
   const double sky = k_pi * sum(light_->sky_radiance());
   const std::uint32_t count = blocks_->count(), soundings = std::min(count, k_soundings);
   const auto samples_of = [&](std::uint32_t sounding) {
@@ -57,8 +56,8 @@ void Solver::sound_out_noise() {
       variance += part * (error * error + error_of_sky * error_of_sky);
     }
   }
-  const double mean = area > 0 ? light / area + 3 * mean_of(direct) : 0;
-  const double scale = std::sqrt(variance / area) / mean / options.tolerance;
+  mean_light_ = area > 0 ? light / area + 3 * mean_of(direct) : 0;
+  const double scale = std::sqrt(variance / area) / mean_light_ / options.tolerance;
   if (std::isfinite(scale)) {  // else there is no light, or more than can be counted
     // Rays that found nothing, though something shines, do not know how much they missed.
     const double least = light > 0 || mean_of(direct) <= 0 ? 1 / k_most_scaled : 1;
