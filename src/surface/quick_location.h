@@ -65,7 +65,7 @@ class QuickLocation {
 
   std::size_t square(const Vec2& point) const {
     const auto index = [](double offset, std::uint32_t count) {
-      return static_cast<std::size_t>(std::clamp(offset, 0.0, static_cast<double>(count - 1)));
+      return static_cast<std::size_t>(offset > 0 ? std::min(offset, count - 1.0) : 0.0);  // 0 for no number, too
     };
     return index((point.y - low_.y) * per_unit_.y, rows_) * columns_ +
            index((point.x - low_.x) * per_unit_.x, columns_);

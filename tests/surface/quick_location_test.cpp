@@ -84,6 +84,13 @@ TEST(QuickLocation, FindsWhatLiesBehindARowOfNeedles) {
   EXPECT_GT(found, 980);
 }
 
+TEST(QuickLocation, NoNumberLiesNowhere) {
+  const Quick quick({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, false);
+  EXPECT_EQ(quick.error_at({NAN, 0.5}), HUGE_VAL);
+  EXPECT_EQ(quick.error_at({0.5, NAN}), HUGE_VAL);
+  EXPECT_LT(quick.error_at({0.5, 0.25}), 1e-6);
+}
+
 TEST(QuickLocation, AtAnyScale) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(0, 1);
