@@ -1,11 +1,14 @@
 // A bake through the public API: all-in processor time, from arrays to a solution, and the statistics.
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -52,12 +55,29 @@ void measure(const bake::Options& options, const bake::SceneData& scene, const b
   bake::save_values(file, rgb, found);
 }
 
-/// Direct light at the vertices as it is in the end.
+/// Direct light at the vertices as it is in the end. Another process bakes it, since a bake after another in the same
+/// one finds its memory warm and takes up to a seventh less time.
 std::vector<float> final_vertices(const bake::SceneData& scene, bake::Options options) {
   options.bake.disable |= RADVOR_DISABLE_INDIRECT;
-  bake::BakedScene baked(scene, options, log_errors, nullptr);
-  baked.run(nullptr, nullptr);
-  return baked.vertices(RADVOR_IRRADIANCE_DIRECT);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::tmpfile(), std::fclose);
+  const pid_t child = file != nullptr ? fork() : -1;
+  if (child == 0) {
+    bake::BakedScene baked(scene, options, log_errors, nullptr);
+    baked.run(nullptr, nullptr);
+    const std::vector<float> values = baked.vertices(RADVOR_IRRADIANCE_DIRECT);
+    const bool written = std::fwrite(values.data(), sizeof(float), values.size(), file.get()) == values.size() &&
+                         std::fflush(file.get()) == 0;
+    _exit(written ? 0 : 1);
+  }
+  int status = 1;
+  if (child < 0 || waitpid(child, &status, 0) != child || status != 0) {
+    throw bake::Failure(bake::ExitCode::bake, "no process to bake the final light in");
+  }
+  std::fseek(file.get(), 0, SEEK_END);
+  std::vector<float> values(static_cast<std::size_t>(std::ftell(file.get())) / sizeof(float));
+  std::rewind(file.get());
+  values.resize(std::fread(values.data(), sizeof(float), values.size(), file.get()));
+  return values;
 }
 
 /// Over the mean of what is expected; `kept`: the share of the values that are least off.

@@ -122,7 +122,8 @@ def first_light(scenes, options):
                                            "--points-out", pathlib.Path(folder) / "values"], seconds=1200)
             for line in direct:
                 line["error"] = errors(reference, line.pop("points"))
-        first = runs.run(["slices", options.slice / 5, *bake, "--max-seconds", 1, "--quantity", "direct"], seconds=1200)
+        first = runs.run(["slices", options.slice / 5, *bake, "--max-seconds", direct[0]["seconds"] + 1, "--quantity",
+                          "direct"], seconds=1200)
         whole = runs.run(in_slices + ["--max-seconds", options.max_seconds], seconds=1200)
         slices = [line["seconds"] for line in whole[1:]]
         lit = next((line for line in direct if line["error"]["rms"] <= 0.3), None)
@@ -130,6 +131,7 @@ def first_light(scenes, options):
         result[scene.name] = row = {
             "slice": options.slice,
             "direct": direct,
+            "first": first,
             "geometry": direct[0]["seconds"],
             "lit": lit and lit["total_seconds"],
             "lit_at_vertices": at_vertices and at_vertices["total_seconds"],

@@ -52,10 +52,12 @@ BakeStatus Bake::advance(double seconds, const ProgressCallback& callback) {
   const double before = state_->seconds;
   BakeStatus status = BakeStatus::converged;
   state_->show_no_more();
-  if (seconds > 0) {
+  const double limit = state_->options.max_seconds;
+  if (seconds > 0 || limit > 0) {
     constexpr double k_no_end = 1e9;
-    const double most = state_->options.max_seconds > 0 ? state_->options.max_seconds - before : k_no_end;
-    const std::chrono::duration<double> given(std::clamp(most, 0.0, std::min(seconds, k_no_end)));
+    const double slice = seconds > 0 ? std::min(seconds, k_no_end) : k_no_end;
+    const double left = limit > 0 ? std::max(0.0, limit - before) : k_no_end;
+    const std::chrono::duration<double> given(std::min(slice, left));
     state_->slice.pause_at(begin, begin + std::chrono::duration_cast<Clock::duration>(given));
   } else {
     state_->slice.pause_no_more();

@@ -46,7 +46,7 @@ void Solver::begin_level() {
   const auto sites = surface->sites();
   const bool lazy = (options.disable & Disable::lazy) == 0;
   const double most = k_reach * std::sqrt(options.tolerance);
-  if (level_ == 0) {
+  if (level_ == 0 && round_ == 0) {
     reflect_direct();
   }
   std::pmr::vector<std::uint32_t> looking(&host.memory);
@@ -199,7 +199,9 @@ Steps Solver::look_around(Pace& pace) {
       block_, end,
       [&](std::uint32_t sample, Tracer& tracer) {
         look_from(sample, ray_counts_[records_[sample] - first_record_], tracer);
-        first_bounce_[sample] = hemispheres_->gather(records_[sample], radiosity_);
+        if (round_ == 0) {  // later, anchors are samples whose first bounce has been seen
+          first_bounce_[sample] = hemispheres_->gather(records_[sample], radiosity_);
+        }
         known_[sample] = 1;
       },
       k_tasks_a_block);

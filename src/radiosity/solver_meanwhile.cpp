@@ -11,7 +11,7 @@
 namespace radvor {
 
 bool Solver::guesses() const {
-  const bool first = stage_ == Stage::direct && under_way_.is_done() && !looking_ && round_ == 0;
+  const bool first = stage_ == Stage::direct && !looking_ && round_ == 0;
   return may_guess_ && first && source_ < light_->source_count() && guessed_blocks_ < 2 * blocks_->count();
 }
 

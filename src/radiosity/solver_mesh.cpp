@@ -65,7 +65,7 @@ Steps Solver::remake(Pace& pace) {
   if (static_cast<double>(raised.size()) < few) {
     co_await surface->raise(raised, most, pace);
   }
-  if (surface->sites().size() == sites) {
+  if (surface->sites().size() == sites) {  // levels alone rose: whatever comes next tells itself what is pending
     end_remake();
     co_return;
   }

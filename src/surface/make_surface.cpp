@@ -73,7 +73,7 @@ class SurfaceMaker {
     make_samples(parts_);
     co_await pace;
     co_await find_origins(parts_, *remaking.before, facets_, remaking.origins, pace);
-    co_await pace.time_for(pass);  // for what is here, and for those who follow what is shown from now on
+    co_await pace.time_for(pass);  // for what is here, and for Solver::follow, which comes at once
     remaking.before.reset();
     renumber_kept();
     free_retired();

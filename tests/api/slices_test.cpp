@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <radvor.h>
 
+#include <array>
 #include <string>
 
 #include "api/engine.h"
@@ -183,6 +184,26 @@ TEST(Slices, TimeIsKept) {
   options.max_seconds = 1e-9;
   EXPECT_EQ(radvor_bake(baked.scene, &options, &baked.solution), RADVOR_TIME_SPENT) << baked.engine.error();
   baked.light();
+}
+
+// Else it could not end when the time is spent.
+TEST(Slices, ABakeWhoseTimeIsLimitedIsDoneInSmallPiecesAndEndsTheSame) {
+  std::array<int, 2> pieces{};
+  std::array<LightOf, 2> light;
+  for (const int limited : {0, 1}) {
+    Baked baked;
+    radvor_bake_options options = refined();
+    options.max_seconds = limited == 0 ? 0 : 1e6;
+    options.progress = [](void* count, const radvor_progress*) {
+      ++*static_cast<int*>(count);
+      return 0;
+    };
+    options.progress_user = &pieces[limited];
+    ASSERT_EQ(radvor_bake(baked.scene, &options, &baked.solution), RADVOR_OK) << baked.engine.error();
+    light[limited] = baked.light();
+  }
+  EXPECT_GT(pieces[1], pieces[0]);
+  EXPECT_TRUE(light[0] == light[1]);
 }
 
 }  // namespace
