@@ -16,8 +16,8 @@ namespace radvor {
 
 namespace {
 
-constexpr double k_least_weight = 1e-6;          // of an anchor that matters
-constexpr double k_alike = 3;                    // tolerances of the mean light that anchors may differ by
+constexpr double k_least_weight = 1e-6;  // of an anchor that matters
+constexpr double k_alike = 0.42;  // times the root of the tolerance: of the mean light, that anchors may differ by
 constexpr std::uint32_t k_rays_of_glimpse = 16;  // one packet
 constexpr std::uint64_t k_seed_of_glimpse = 0x676c696d70736573;
 constexpr float k_wide_open = 0.5f;   // share of the view that is sky, from which on its edges matter less
@@ -113,7 +113,7 @@ bool Solver::differ(const SampleOrigin& anchor) const {
       high = std::max(high, light);
     }
   }
-  return high - low > k_alike * options.tolerance * mean_light_;
+  return high - low > k_alike * std::sqrt(options.tolerance) * mean_light_;
 }
 
 // Casts a sample's rays, unless as many of them, or more, have been.
