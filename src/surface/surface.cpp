@@ -30,34 +30,37 @@ struct Surface::State : SurfaceParts {
   }
 
   // Facet by facet: wherever it pauses, each is as it was or aligned.
-  Steps align_ties(std::span<const double> value_of, double tolerance, Ties& ties, Pace& pace) {
-    constexpr double k_hexagonal_rounding = 0x1p-10;
-    const double least = options.lattice == Lattice::hexagonal ? k_hexagonal_rounding : 0;
-    std::pmr::vector<double> values(memory);
-    values.reserve(shares.size());
-    for (const Share& share : shares) {
-      values.push_back(value_of[share.sample]);
-    }
-    std::pmr::vector<Ties> of_mesh(meshes.size(), memory);
-    constexpr double k_task = 512;
-    const auto weight = [&](std::uint32_t k) {
-      return 1.0 + static_cast<double>(meshes[k] ? meshes[k]->triangles().size() : 0);
-    };
-    const EvenRanges ranges(of_mesh.size(), k_task, weight, memory);
-    const auto align = [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
-      for (std::uint32_t k = begin; k < end; ++k) {
-        if (meshes[k] && !meshes[k]->degenerate()) {
-          of_mesh[k] = meshes[k]->align_ties(values, std::max(tolerance, least), memory);
-        }
-      }
-    };
-    co_await ranges.for_each(host.jobs, align, pace);
-    for (const Ties& of : of_mesh) {
-      ties.count += of.count;
-      ties.realigned += of.realigned;
-    }
-  }
+  Steps align_ties(std::span<const double> value_of, double tolerance, Ties& ties, Pace& pace);
 };
+
+// Outside of the class: clang 14 with sanitizers has no section for what is inlined of a coroutine within another.
+Steps Surface::State::align_ties(std::span<const double> value_of, double tolerance, Ties& ties, Pace& pace) {
+  constexpr double k_hexagonal_rounding = 0x1p-10;
+  const double least = options.lattice == Lattice::hexagonal ? k_hexagonal_rounding : 0;
+  std::pmr::vector<double> values(memory);
+  values.reserve(shares.size());
+  for (const Share& share : shares) {
+    values.push_back(value_of[share.sample]);
+  }
+  std::pmr::vector<Ties> of_mesh(meshes.size(), memory);
+  constexpr double k_task = 512;
+  const auto weight = [&](std::uint32_t k) {
+    return 1.0 + static_cast<double>(meshes[k] ? meshes[k]->triangles().size() : 0);
+  };
+  const EvenRanges ranges(of_mesh.size(), k_task, weight, memory);
+  const auto align = [&](std::uint32_t, std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t k = begin; k < end; ++k) {
+      if (meshes[k] && !meshes[k]->degenerate()) {
+        of_mesh[k] = meshes[k]->align_ties(values, std::max(tolerance, least), memory);
+      }
+    }
+  };
+  co_await ranges.for_each(host.jobs, align, pace);
+  for (const Ties& of : of_mesh) {
+    ties.count += of.count;
+    ties.realigned += of.realigned;
+  }
+}
 
 namespace {
 
