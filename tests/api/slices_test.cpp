@@ -190,7 +190,7 @@ TEST(Slices, TimeIsKept) {
 TEST(Slices, ABakeWhoseTimeIsLimitedIsDoneInSmallPiecesAndEndsTheSame) {
   std::array<int, 2> pieces{};
   std::array<LightOf, 2> light;
-  for (const int limited : {0, 1}) {
+  for (const std::size_t limited : {0u, 1u}) {
     Baked baked;
     radvor_bake_options options = refined();
     options.max_seconds = limited == 0 ? 0 : 1e6;
